@@ -124,9 +124,11 @@ pub(crate) fn view(
     (width, height): (u32, u32),
 ) -> Result<(LuminanceImage, Gathered), Failure> {
     let size = Size::new(width, height).map_err(Failure::bad_input)?;
+    let mut lighting = Meter::new("direct light of the view", None);
     let mut gathering = Meter::new("indirect light of the view", None);
     let mut looking = Meter::new("view", None);
     let watch = &mut |progress| match progress {
+        ViewProgress::Lighting(share) => lighting.tell(share),
         ViewProgress::Gathering(share) => gathering.tell(share),
         ViewProgress::Looking(share) => looking.tell(share),
     };

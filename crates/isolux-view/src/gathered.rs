@@ -1,26 +1,39 @@
 //! Views from a map whose indirect light is gathered where the map is not to be trusted, as readings have it: on a net of
 //! pixels, so that few of them take rays.
 
+use crate::direct::DirectField;
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
+use crate::middles::{Middles, surface};
 use crate::trace::{SurfacePoint, TraceSettings, trace, trace_watched};
 use isolux::elements::PlaceOnSide;
 use isolux::engine::net::{Filled, Fineness, Net, Wanted};
-use isolux::engine::{Allowance, IndirectReading, MapReader, Told};
+use isolux::engine::{Allowance, IndirectReading, MapReader, PictureLight, ShadowRays, Told};
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::{Camera, Scene};
 use isolux::units::Rgb;
 use rayon::prelude::*;
+use std::collections::HashMap;
 use std::convert::Infallible;
 use std::sync::{Mutex, PoisonError};
 
+/// The net over blocks of pixels: as for pixels, in half of the numbers.
+const FINENESS: Fineness = Fineness {
+    widest: Fineness::PIXELS.widest / BLOCK_WIDTH,
+    finest: Fineness::PIXELS.finest / BLOCK_WIDTH,
+    ..Fineness::PIXELS
+};
+/// Pixels across the blocks that share their indirect light.
+const BLOCK_WIDTH: usize = 2;
 /// Numbers of pixels at a time whose light is gathered.
 const BLOCK: usize = 64;
 /// Pixels that are gathered between two words to whoever watches.
 const WATCHED: usize = 1024;
-/// Noise of what is gathered, as a share of it, before it is smoothed; and what elements may be expected to err by, which is seen as
+/// Noise of what is gathered, as a share of all light, before it is smoothed; and what elements may be expected to err by, which is seen as
 /// their pattern.
-const ALLOWANCE: Allowance = Allowance { noise: 0.05, interpolation: 0.03 };
+const ALLOWANCE: Allowance = Allowance { noise: 0.08, interpolation: 0.02 };
+/// Shadow rays of a place in a pixel across the edge of a shadow. The cells of the pixel share its noise.
+const CELL_RAYS: ShadowRays = ShadowRays { fewest: 8, most: 16 };
 /// Pixels over which the difference that gathering made fades out.
 const FADE: u32 = 32;
 /// Times that what fades out is evened along the way.
@@ -42,6 +55,8 @@ pub struct Gathered {
 /// What is being done for a view, and the share of it that is done, as far as that can be foreseen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ViewProgress {
+    /// Direct light is evaluated.
+    Lighting(f64),
     /// Indirect light is gathered.
     Gathering(f64),
     /// Pixels are looked at.
@@ -49,10 +64,10 @@ pub enum ViewProgress {
 }
 
 /// Looks at a scene with the light of its map: direct light evaluated afresh, indirect light as [`MapReader::at`] reads it,
-/// gathered where the map is not to be trusted and interpolated elsewhere, and in what gloss and faint panes show. Where it is
-/// wanted, light is gathered in the middles of few pixels and continued to those about on the same piece of surface, within
-/// half of the error of a reading or 2 % of the light (best effort: pieces that no middle of a pixel nearby shows are
-/// interpolated). `watch` is told how far that is.
+/// gathered where the map is not to be trusted and interpolated elsewhere, and in what gloss and faint panes show. Both are
+/// evaluated in the middles of few pixels and continued to those about on the same piece of surface: direct light where it
+/// is smooth, indirect light within half of the error of a reading or 2 % of the light (best effort: pieces that no middle
+/// of a pixel nearby shows are interpolated). `watch` is told how far that is.
 pub fn trace_map(
     (scene, map): (&Scene, &IlluminationMap),
     camera: &Camera,
@@ -60,15 +75,19 @@ pub fn trace_map(
     (settings, watch): (&TraceSettings, &mut dyn FnMut(ViewProgress)),
 ) -> Result<(LuminanceImage, Gathered), ViewError> {
     let reader = MapReader::new(scene, map);
-    let places = asked(scene, camera, size, settings)?;
-    let (light, report) = PixelLight::new((scene, map), &reader, (size, places), watch);
+    let middles = Middles::of(scene, size, asked(scene, camera, size, settings)?);
+    let direct = DirectField::new(&middles, (&reader, map), |share| {
+        watch(ViewProgress::Lighting(share));
+    });
+    let (light, report) = PixelLight::new((&middles, map), &reader, watch);
     let read = |at: SurfacePoint| -> Option<Illuminance> {
         let SurfacePoint { triangle, back, u, v, blurred, .. } = at;
         let of_map = || map.interpolate(triangle, back, u, v);
         if blurred {
             return of_map();
         }
-        let known = match light.at((scene, &reader), &at) {
+        let surface = surface(scene, &at);
+        let indirect = match light.at(&reader, (&at, &surface)) {
             Light::OfMap => None,
             Light::Gathered(reading) => Some(reading),
             Light::Beside(more) => of_map().map(|stored| IndirectReading {
@@ -77,7 +96,8 @@ pub fn trace_map(
                 noise_lx: stored.indirect_standard_error_lx,
             }),
         };
-        reader.glance(on_side(&at), 0, known)
+        let known = PictureLight { direct_lx: direct.at((&at, &surface)), indirect };
+        reader.glance(on_side(&at), (0, CELL_RAYS), known)
     };
     let watch = &mut |share| watch(ViewProgress::Looking(share));
     let image = trace_watched(scene, camera, size, settings, (&read, watch))?;
@@ -111,10 +131,8 @@ fn asked(
     Ok(all)
 }
 
-/// What the middle of a pixel shows, straight or by some way over mirrors and panes.
+/// The indirect light of what the middle of a pixel shows.
 struct Entry {
-    at: SurfacePoint,
-    surface: Surface,
     /// Whether it lies in a gap, where light is gathered.
     wanted: Option<bool>,
     /// Standard error of what the map tells elsewhere, lx.
@@ -134,29 +152,27 @@ enum Light {
 }
 
 /// Indirect light of pixels, where it is gathered.
-struct PixelLight {
-    size: Size,
+struct PixelLight<'a> {
+    middles: &'a Middles,
+    /// One for each middle.
     entries: Vec<Entry>,
-    /// First entry of each pixel, and their number.
-    firsts: Vec<usize>,
 }
 
-impl PixelLight {
+impl<'a> PixelLight<'a> {
     fn new(
-        (scene, map): (&Scene, &IlluminationMap),
+        (middles, map): (&'a Middles, &IlluminationMap),
         reader: &MapReader<'_>,
-        (size, asked): (Size, Vec<SurfacePoint>),
         watch: &mut dyn FnMut(ViewProgress),
     ) -> (Self, Gathered) {
-        let entries = asked.into_par_iter().map(|at| Entry::new(scene, reader, at)).collect();
-        let mut pixels = Self { size, entries, firsts: Vec::new() };
-        pixels.firsts = (0..=size.pixels())
-            .map(|pixel| pixels.entries.partition_point(|entry| entry.at.pixel < pixel))
-            .collect();
+        let entry = |number: usize| Entry::new(reader, middles.place(number));
+        let entries = (0..middles.count()).into_par_iter().map(entry).collect();
+        let mut pixels = Self { middles, entries };
         let mut report = Gathered::default();
-        let place = |number: usize| on_side(&pixels.entries[number].at);
+        let place = |number: usize| on_side(middles.place(number));
         let sight = |from: usize, to: usize| reader.sees(place(from), place(to));
-        let mut net = Net::new(pixels.wanted(), Fineness::PIXELS, Box::new(sight));
+        let wanted = pixels.wanted();
+        let (blocks, asked) = Blocks::of(wanted);
+        let mut net = Net::new(asked, FINENESS, Box::new(sight));
         let mut done = 0.0;
         let gather = |numbers: &[usize], more: f64| -> Result<Vec<_>, Infallible> {
             let one = |&number: &usize| reader.indirect_at(place(number), ALLOWANCE);
@@ -172,13 +188,11 @@ impl PixelLight {
         let Ok(()) = net.fill(gather);
         let filled: Vec<Filled> = net.filled().collect();
         drop(net);
-        for filled in filled {
-            let light = filled.reading.map_or(Light::OfMap, Light::Gathered);
-            pixels.entries[filled.number].light = light;
-            match filled.is_gathered {
-                true => report.gathered += 1,
-                false => report.continued += 1,
-            }
+        report.gathered = filled.iter().filter(|filled| filled.is_gathered).count();
+        let light = blocks.spread(&filled, middles);
+        report.continued = light.len() - report.gathered;
+        for (number, reading) in light {
+            pixels.entries[number].light = reading.map_or(Light::OfMap, Light::Gathered);
         }
         report.interpolated = pixels.entries.len() - report.gathered - report.continued;
         pixels.fade(map);
@@ -187,15 +201,16 @@ impl PixelLight {
 
     /// Pixels whose light is to be gathered, each with the piece of surface that it hangs together with.
     fn wanted(&self) -> Vec<Wanted> {
-        let width = self.size.width() as usize;
+        let middles = self.middles;
+        let width = middles.width();
         let mut pieces: Vec<usize> = (0..self.entries.len()).collect();
         for (number, entry) in self.entries.iter().enumerate() {
-            let pixel = entry.at.pixel;
-            let right = (pixel % width + 1 < width).then_some(pixel + 1);
-            let below = (pixel + width < self.size.pixels()).then_some(pixel + width);
-            for other in right.into_iter().chain(below).flat_map(|pixel| self.of(pixel)) {
-                let is_alike = entry.wanted.is_some() && entry.wanted == self.entries[other].wanted;
-                if is_alike && entry.is_one_piece_with(&self.entries[other]) {
+            if entry.wanted.is_none() {
+                continue;
+            }
+            for other in middles.right_and_below(number) {
+                let is_alike = entry.wanted == self.entries[other].wanted;
+                if is_alike && middles.are_one_piece(number, other) {
                     let [a, b] = [number, other].map(|number| root(&mut pieces, number));
                     pieces[a.max(b)] = a.min(b);
                 }
@@ -205,7 +220,7 @@ impl PixelLight {
             (0..self.entries.len()).filter(|&number| self.entries[number].wanted.is_some());
         wanted
             .map(|number| {
-                let pixel = self.entries[number].at.pixel;
+                let pixel = middles.place(number).pixel;
                 let kind = root(&mut pieces, number) as u64;
                 Wanted { number, at: [pixel % width, pixel / width], kind }
             })
@@ -216,14 +231,17 @@ impl PixelLight {
     /// may err by as much as the limit of its trust, which would be seen as a line.
     fn fade(&mut self, map: &IlluminationMap) {
         let mut more: Vec<Option<Rgb>> =
-            self.entries.iter().map(|entry| entry.changed(map)).collect();
+            (0..self.entries.len()).map(|number| self.changed(number, map)).collect();
         let mut front: Vec<usize> =
             (0..more.len()).filter(|&number| more[number].is_some()).collect();
         for step in 1..=FADE {
             let is_left =
                 |&next: &usize| more[next].is_none() && self.entries[next].wanted.is_none();
-            let mut next: Vec<usize> =
-                front.iter().flat_map(|&number| self.beside(number)).filter(is_left).collect();
+            let mut next: Vec<usize> = front
+                .iter()
+                .flat_map(|&number| self.middles.beside(number))
+                .filter(is_left)
+                .collect();
             next.sort_unstable();
             next.dedup();
             // Once to go on, and then along the front: what differs there is noise.
@@ -244,7 +262,7 @@ impl PixelLight {
 
     /// The mean of what is known of an entry and those beside it, within the interval of what the map tells.
     fn mean_about(&self, number: usize, more: &[Option<Rgb>]) -> Option<Rgb> {
-        let about = std::iter::once(number).chain(self.beside(number));
+        let about = std::iter::once(number).chain(self.middles.beside(number));
         let (mut sum, mut count) = (Rgb::BLACK, 0.0);
         for known in about.filter_map(|other| more[other]) {
             sum += known;
@@ -256,73 +274,31 @@ impl PixelLight {
         (count > 0.0).then(|| if mean_lx > most_lx { mean * (most_lx / mean_lx) } else { mean })
     }
 
-    /// Entries of the pixels to the four sides of one that show the same piece of surface.
-    fn beside(&self, number: usize) -> impl Iterator<Item = usize> + '_ {
-        let entry = &self.entries[number];
-        let (pixel, width) = (entry.at.pixel, self.size.width() as usize);
-        let sides = [
-            (pixel % width > 0).then(|| pixel - 1),
-            (pixel % width + 1 < width).then_some(pixel + 1),
-            pixel.checked_sub(width),
-            (pixel + width < self.size.pixels()).then_some(pixel + width),
-        ];
-        let near = sides.into_iter().flatten().flat_map(|pixel| self.of(pixel));
-        near.filter(|&other| entry.is_one_piece_with(&self.entries[other]))
-    }
-
-    /// Numbers of the entries of a pixel.
-    fn of(&self, pixel: usize) -> std::ops::Range<usize> {
-        self.firsts[pixel]..self.firsts[pixel + 1]
-    }
-
     /// The light of a place that a pixel shows, where it is gathered: that of the middle of the pixel, or, if that shows
     /// another surface, of the nearest place of the same that the middle of one of the pixels around shows. A place in a gap
     /// stands for no place outside of it.
-    fn at(&self, (scene, reader): (&Scene, &MapReader<'_>), at: &SurfacePoint) -> Light {
-        let surface = surface(scene, at);
-        let shows = |entry: &&Entry| entry.at.path == at.path && entry.surface.continues(&surface);
-        let own = self.of(at.pixel).map(|number| &self.entries[number]).find(shows);
-        let away = |entry: &&Entry| (entry.surface.position - surface.position).length_squared();
-        let around = || {
-            let around = self.around(at.pixel).flat_map(|pixel| self.of(pixel));
-            around.map(|number| &self.entries[number]).filter(shows)
-        };
-        let nearest = |like: &dyn Fn(&&Entry) -> bool| {
-            around().filter(like).min_by(|a, b| away(a).total_cmp(&away(b)))
-        };
-        let Some(standing) = own.or_else(|| nearest(&|_| true)) else { return Light::OfMap };
-        if !standing.is_in_gap() || around().all(|entry| entry.is_in_gap()) {
-            return standing.light;
+    fn at(&self, reader: &MapReader<'_>, (at, surface): (&SurfacePoint, &Surface)) -> Light {
+        let entry = |number: usize| &self.entries[number];
+        let Some(standing) = self.middles.standing(at, surface) else { return Light::OfMap };
+        let is_in_gap = |number: usize| entry(number).is_in_gap();
+        let mut around = self.middles.around(at, surface);
+        if !is_in_gap(standing) || around.all(is_in_gap) {
+            return entry(standing).light;
         }
         let (wanted, _) = wanted(reader, at);
-        if wanted == standing.wanted {
-            return standing.light;
+        if wanted == entry(standing).wanted {
+            return entry(standing).light;
         }
-        nearest(&|entry| entry.wanted == wanted).map_or(Light::OfMap, |entry| entry.light)
+        let like = self.middles.around(at, surface).filter(|&k| entry(k).wanted == wanted);
+        let nearest = self.middles.nearest(like, surface);
+        nearest.map_or(Light::OfMap, |number| entry(number).light)
     }
 
-    fn around(&self, pixel: usize) -> impl Iterator<Item = usize> + use<> {
-        let (width, height) = (self.size.width() as usize, self.size.height() as usize);
-        let near = |at: usize, size: usize| at.saturating_sub(1)..(at + 2).min(size);
-        let columns = near(pixel % width, width);
-        near(pixel / width, height).flat_map(move |y| columns.clone().map(move |x| y * width + x))
-    }
-}
-
-impl Entry {
-    fn new(scene: &Scene, reader: &MapReader<'_>, at: SurfacePoint) -> Self {
-        let (wanted, error_lx) = wanted(reader, &at);
-        Self { at, surface: surface(scene, &at), wanted, error_lx, light: Light::OfMap }
-    }
-
-    fn is_in_gap(&self) -> bool {
-        self.wanted == Some(true)
-    }
-
-    /// What gathering in the open has changed, lx.
-    fn changed(&self, map: &IlluminationMap) -> Option<Rgb> {
-        let SurfacePoint { triangle, back, u, v, .. } = self.at;
-        match (self.light, self.wanted) {
+    /// What gathering in the open has changed at a middle, lx.
+    fn changed(&self, number: usize, map: &IlluminationMap) -> Option<Rgb> {
+        let SurfacePoint { triangle, back, u, v, .. } = *self.middles.place(number);
+        let Entry { light, wanted, .. } = self.entries[number];
+        match (light, wanted) {
             (Light::Gathered(reading), Some(false)) => {
                 let stored = map.interpolate(triangle, back, u, v)?;
                 Some(reading.lx - stored.indirect_lx)
@@ -330,14 +306,75 @@ impl Entry {
             _ => None,
         }
     }
+}
 
-    /// Whether light may be continued from here to a pixel beside it.
-    fn is_one_piece_with(&self, other: &Self) -> bool {
-        self.at.path == other.at.path && self.surface.continues(&other.surface)
+/// Blocks of pixels on one piece of surface. One pixel of each stands for all of them.
+struct Blocks {
+    wanted: Vec<Wanted>,
+    /// For each wanted pixel, the one that stands for its block.
+    standing: HashMap<usize, usize>,
+}
+
+impl Blocks {
+    /// The blocks of wanted pixels, and the pixels that stand for them.
+    fn of(wanted: Vec<Wanted>) -> (Self, Vec<Wanted>) {
+        let mut first: HashMap<(u64, [usize; 2]), usize> = HashMap::new();
+        let (mut standing, mut asked) = (HashMap::with_capacity(wanted.len()), Vec::new());
+        for of in &wanted {
+            let at = of.at.map(|at| at / BLOCK_WIDTH);
+            let number = *first.entry((of.kind, at)).or_insert_with(|| {
+                asked.push(Wanted { at, ..*of });
+                of.number
+            });
+            standing.insert(of.number, number);
+        }
+        (Self { wanted, standing }, asked)
+    }
+
+    /// The light of all pixels: the mean of the blocks of those about on the same piece of surface, so that blocks are not seen.
+    fn spread(
+        &self,
+        filled: &[Filled],
+        middles: &Middles,
+    ) -> Vec<(usize, Option<IndirectReading>)> {
+        let light: HashMap<usize, IndirectReading> =
+            filled.iter().filter_map(|f| Some((f.number, f.reading?))).collect();
+        let kinds: HashMap<usize, u64> =
+            self.wanted.iter().map(|of| (of.number, of.kind)).collect();
+        let of_pixel = |of: &Wanted| {
+            let own = light.get(&self.standing[&of.number])?;
+            let path = middles.place(of.number).path;
+            let near = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
+            let pixels = near(of.at[1], middles.height())
+                .flat_map(|y| near(of.at[0], middles.width()).map(move |x| [x, y]));
+            let (mut sum, mut count) = (Rgb::BLACK, 0.0);
+            for [x, y] in pixels {
+                let Some(other) = middles.by_path(y * middles.width() + x, path) else { continue };
+                if kinds.get(&other) == Some(&of.kind)
+                    && let Some(reading) = light.get(&self.standing[&other])
+                {
+                    sum += reading.lx;
+                    count += 1.0;
+                }
+            }
+            Some(IndirectReading { lx: sum / count, ..*own })
+        };
+        self.wanted.par_iter().map(|of| (of.number, of_pixel(of))).collect()
     }
 }
 
-fn on_side(at: &SurfacePoint) -> PlaceOnSide {
+impl Entry {
+    fn new(reader: &MapReader<'_>, at: &SurfacePoint) -> Self {
+        let (wanted, error_lx) = wanted(reader, at);
+        Self { wanted, error_lx, light: Light::OfMap }
+    }
+
+    fn is_in_gap(&self) -> bool {
+        self.wanted == Some(true)
+    }
+}
+
+pub(crate) fn on_side(at: &SurfacePoint) -> PlaceOnSide {
     PlaceOnSide { triangle: at.triangle, back: at.back, uv: [at.u, at.v] }
 }
 
@@ -347,18 +384,6 @@ fn wanted(reader: &MapReader<'_>, at: &SurfacePoint) -> (Option<bool>, f64) {
         Some(Told::Little { in_gap }) => (Some(in_gap), 0.0),
         Some(Told::Light(reading)) => (None, reading.error_lx),
         None => (None, 0.0),
-    }
-}
-
-fn surface(scene: &Scene, at: &SurfacePoint) -> Surface {
-    let SurfacePoint { triangle, back, u, v, path, .. } = *at;
-    let front = scene.shading_normal(triangle, u, v);
-    Surface {
-        shape: scene.shape_of(triangle),
-        back,
-        path,
-        position: scene.triangle(triangle).point(u, v),
-        normal: if back { (-front.to_direction()).to_normal() } else { front },
     }
 }
 

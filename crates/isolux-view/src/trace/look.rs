@@ -62,6 +62,11 @@ impl Look {
         one_surface && self.sight == other.sight && is_alike
     }
 
+    /// Whether two looks see one surface.
+    pub(super) fn is_beside(&self, other: &Self) -> bool {
+        is_one_surface(&self.surface, &other.surface)
+    }
+
     /// As stored in an image.
     pub(super) fn seen(&self) -> Seen {
         Seen {

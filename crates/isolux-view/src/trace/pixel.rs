@@ -47,8 +47,8 @@ impl Pixels<'_> {
     }
 
     /// A look for each cell of a pixel, rows from the top. The glimpse stands for all of them where
-    /// those of the pixels around are like it; else the cells on the diagonal for their columns,
-    /// where they are alike.
+    /// those of the pixels around are like it; else, if these show the same surface, the cells on the
+    /// diagonal for their columns, where they are alike.
     pub(super) fn looks(&self, pixel: usize, glimpses: &Glimpses) -> Vec<Look> {
         let cells = self.per_side * self.per_side;
         if self.per_side < FEWEST_TO_COMPARE {
@@ -60,13 +60,15 @@ impl Pixels<'_> {
         if let Some(glimpse) = glimpse.filter(is_even) {
             return vec![*glimpse; cells as usize];
         }
+        let is_inside = |glimpse: &Look| near.iter().all(|look| look.is_beside(glimpse));
+        let is_inside = glimpse.is_some_and(is_inside);
         let middle = glimpse.map(|look| (self.middle_cell(), *look));
         let on_diagonal = |cell| match middle {
             Some((middle, look)) if middle == cell => look,
             _ => self.look(pixel, cell, &near, self.per_side),
         };
         let diagonal: Vec<Look> = self.diagonal().map(on_diagonal).collect();
-        let alike = diagonal.iter().all(|look| look.is_like(&diagonal[0]));
+        let alike = is_inside && diagonal.iter().all(|look| look.is_like(&diagonal[0]));
         near.extend(&diagonal);
         let look = |cell: u32| {
             let (row, column) = (cell / self.per_side, cell % self.per_side);
@@ -100,19 +102,16 @@ impl Pixels<'_> {
         self.looker.look(&self.meet(pixel, cell), near, facets, of_pixel)
     }
 
-    /// What lies at a random place of a cell; in the middle of the middle one, where contour lines
-    /// are drawn through.
+    /// What lies at the place of a cell. The places are the same in all pixels, so edges are straight, and no two of them
+    /// share a row or a column (the canonical arrangement of Kensler 2013), so that edges along either are smooth.
     fn meet(&self, pixel: usize, cell: u32) -> Meeting {
         let width = self.size.width() as usize;
         let (left, top) = (pixel % width, pixel / width);
-        let key = self.key(pixel, cell);
-        let is_middle = self.per_side % 2 == 1 && cell == self.middle_cell();
-        let within = |index: u32, axis: u64| {
-            let jitter = if is_middle { 0.5 } else { key.with(axis).uniform() };
-            (f64::from(index) + jitter) / f64::from(self.per_side)
-        };
-        let x = left as f64 + within(cell % self.per_side, 0);
-        let y = top as f64 + within(cell / self.per_side, 1);
+        let side = f64::from(self.per_side);
+        let [column, row] = [cell % self.per_side, cell / self.per_side].map(f64::from);
+        let within = |own: f64, other: f64| (own + (other + 0.5) / side) / side;
+        let x = left as f64 + within(column, row);
+        let y = top as f64 + within(row, column);
         let (ray, direction) = self.rays.through(x, y);
         self.looker.meet(&ray, direction)
     }

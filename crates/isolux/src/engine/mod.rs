@@ -23,13 +23,15 @@ mod tests;
 
 pub use audit::{AuditSettings, audit};
 pub use combine::{Finer, FinerSettings, MixError, MixPart, Mixed, mix, mix_apart};
-pub use light::{Arrival, Highlighted, Highlights, Shining, arrivals};
+pub use light::{Arrival, Highlighted, Highlights, ShadowRays, Shining, arrivals};
 pub use method::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
     IrradianceCache, PathTracer, RadiosityLimits, RadiositySettings, SampleKind, Served,
 };
 pub use ray::{ProbePoint, Sums};
-pub use read::{Allowance, ExactSettings, IndirectReading, MapReader, Told, net, reference_lx};
+pub use read::{
+    Allowance, ExactSettings, IndirectReading, MapReader, PictureLight, Told, net, reference_lx,
+};
 pub use run::{
     Audited, Foreseen, Prediction, Progress, RunIdentity, RunState, SoFar, Solution, SolveError,
     SolveRequest, Stage, Watch, Watcher, foresee, solve, solve_looked_at,

@@ -7,7 +7,8 @@
 
 use super::trees::{bisected_like, own_vertices};
 use crate::elements::{PlaceOnSide, Subdivision, edge_key};
-use crate::engine::read::{MapReader, reference_lx};
+use crate::engine::light::ShadowRays;
+use crate::engine::read::{MapReader, PictureLight, reference_lx};
 use crate::map::{Illuminance, IlluminationMap, VertexLight};
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -21,6 +22,8 @@ const VISIBLE: f64 = 0.02;
 /// The share of the reference illuminance that is added to the light of a place for its visible difference.
 /// Eyes adapted to a scene see no finer differences in darker places.
 const DIM: f64 = 0.05;
+/// The shadow rays of a reading.
+const RAYS: ShadowRays = ShadowRays { fewest: 8, most: 32 };
 /// The number of readings of a place where a difference may be visible. Readings of luminaires with a surface
 /// are noisy.
 const READINGS: u64 = 4;
@@ -170,7 +173,10 @@ impl<'a> Finer<'a> {
     /// The value at the midpoint of an edge. Direct light is evaluated, by several readings where it may
     /// differ from the ends of the edge.
     fn read(&self, edge: [u32; 2], place: PlaceOnSide) -> Option<VertexLight> {
-        let reading = |number| self.reader.glance(place, number, None).map(Illuminance::at_vertex);
+        let reading = |number| {
+            let glance = self.reader.glance(place, (number, RAYS), PictureLight::default());
+            glance.map(Illuminance::at_vertex)
+        };
         let first = reading(0)?;
         let expected_lx = self.expected_lx(edge);
         if expected_lx.is_some_and(|lx| (first.illuminance_lx() - lx).abs() < self.visible_lx(lx)) {

@@ -59,6 +59,12 @@ struct Row {
     about: Option<Option<NearbyLuminaires>>,
 }
 
+/// What a gatherer sees of the walls and of bright surfaces, whatever its rays.
+struct View<'a> {
+    bright: Option<bright_surfaces::Seen<'a>>,
+    walls: Vec<control_variate::Seen<'a>>,
+}
+
 /// Buffers of rays that are followed together. They are kept from row to row, since allocation takes time.
 #[derive(Default)]
 struct Wave {
@@ -178,13 +184,18 @@ impl Gathering<'_> {
             let mut rows = Rows::default();
             rows.entries.reserve(part.iter().map(|g| g.rays as usize).sum());
             let (mut row, mut wave) = (Row::default(), Wave::default());
+            let mut view = None;
             for (k, gatherer) in part.iter().enumerate() {
                 // Readers make many rows for one place.
-                let before = k.checked_sub(1).map(|k| &part[k]);
-                let about = row.about.filter(|_| before.is_some_and(|b| b.is_at(gatherer)));
+                let before = k.checked_sub(1).map(|k| &part[k]).filter(|b| b.is_at(gatherer));
+                let about = row.about.filter(|_| before.is_some());
                 row = Row::after(about);
+                if before.is_none_or(|b| b.rays != gatherer.rays || b.normal != gatherer.normal) {
+                    view = None;
+                }
+                let view = view.get_or_insert_with(|| self.view(gatherer));
                 let key = key_of(index * size + k);
-                self.row(gatherer, key, (&mut row, &mut wave), &mut rows);
+                self.row((gatherer, view), key, (&mut row, &mut wave), &mut rows);
             }
             Some(rows)
         };
@@ -196,22 +207,30 @@ impl Gathering<'_> {
         Some(Operator { chunks, receivers, rays })
     }
 
+    /// What a gatherer sees of the walls and of bright surfaces.
+    fn view(&self, gatherer: &Gatherer) -> View<'_> {
+        let Gatherer { origin, normal, rays, .. } = *gatherer;
+        let walls = self.backdrop.filter(|_| rays > 0 && gatherer.behind.is_some());
+        View {
+            bright: self.bright.and_then(|bright| bright.seen_from(origin, normal, rays)),
+            walls: walls.map_or(Vec::new(), |walls| walls.seen_from(&gatherer.stand())),
+        }
+    }
+
     fn row(
         &self,
-        gatherer: &Gatherer,
+        (gatherer, view): (&Gatherer, &View<'_>),
         key: Key,
         (row, wave): (&mut Row, &mut Wave),
         rows: &mut Rows,
     ) {
         let sequence = Sequence::new(key);
         let Gatherer { origin, normal, rays, in_gap, .. } = *gatherer;
-        let behind = gatherer.behind.filter(|_| rays > 0).zip(self.backdrop);
-        let bright = self.bright.and_then(|bright| bright.seen_from(origin, normal, rays));
+        let behind = gatherer.behind.filter(|_| rays > 0 && self.backdrop.is_some());
+        let View { bright, walls } = view;
         let receiver = Receiver { place: &gatherer.surface, bright: bright.as_ref() };
         let share = Rgb::WHITE / f64::from(rays.max(1));
-        let walls =
-            behind.map_or(Vec::new(), |(_, backdrop)| backdrop.seen_from(&gatherer.stand()));
-        row.lacking = behind.map_or(Rgb::BLACK, |(whole, _)| whole);
+        row.lacking = behind.unwrap_or(Rgb::BLACK);
         let triangle = gatherer.surface.triangle;
         let first = Leg { origin, triangle, normal, share, in_gap, ray: 0 };
         for start in (0..rays).step_by(WAVE_RAYS as usize) {
@@ -223,7 +242,7 @@ impl Gathering<'_> {
             for number in 0..=MOST_LOST_LEGS {
                 self.trace(wave, row, rows);
                 if number == 0 {
-                    row.lacking += control_variate::lacking(&walls, &wave.directions) * share;
+                    row.lacking += control_variate::lacking(walls, &wave.directions) * share;
                 }
                 self.locate(wave);
                 self.read(&receiver, number, (row, wave), rows);
@@ -232,7 +251,7 @@ impl Gathering<'_> {
                 }
             }
         }
-        if let Some(bright) = &bright {
+        if let Some(bright) = bright {
             let sequence = Sequence::new(key.with(SENT_RAYS_KEY));
             for index in 0..bright.sent {
                 row.source += self.sent(&first, bright, &mut Dice::new(sequence, index), rows);

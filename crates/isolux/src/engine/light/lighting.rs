@@ -60,6 +60,8 @@ pub(crate) struct Lighting<'s> {
     pub(super) others: Vec<u32>,
     pub(super) points: usize,
     pub(super) openings: Openings,
+    /// Whether all sources are evaluated for a place of a picture.
+    pub(super) are_pooled: bool,
 }
 
 impl Lighting<'_> {

@@ -28,5 +28,6 @@ pub(crate) use particle::{Particle, scatterings};
 pub(crate) use sample::measured::{Goal, Measured, REPLICATES};
 pub(crate) use sample::nearby::NearbyLuminaires;
 pub(crate) use sample::patches::Patches;
+pub use sample::pooled::ShadowRays;
 pub(crate) use sources::LuminaireId;
 pub(crate) use visibility::shadows::Shadows;

@@ -36,10 +36,12 @@ impl<'s> Lighting<'s> {
             others: Vec::new(),
             points,
             openings: Openings::default(),
+            are_pooled: false,
         };
         lighting.twins = lighting.find_twins();
         lighting.openings = lighting.look_out();
         lighting.plant();
+        lighting.are_pooled = lighting.can_pool();
         lighting
     }
 

@@ -4,4 +4,6 @@ mod map_reader;
 pub mod net;
 
 pub(crate) use map_reader::GLANCE_SAMPLES;
-pub use map_reader::{Allowance, ExactSettings, IndirectReading, MapReader, Told, reference_lx};
+pub use map_reader::{
+    Allowance, ExactSettings, IndirectReading, MapReader, PictureLight, Told, reference_lx,
+};

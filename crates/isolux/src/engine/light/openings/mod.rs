@@ -68,6 +68,11 @@ impl Openings {
         Self(of_emitters)
     }
 
+    /// Whether there are openings in front of any emitting surface.
+    pub(crate) fn exist(&self) -> bool {
+        self.0.iter().any(Option::is_some)
+    }
+
     /// Whether there are openings in front of an emitting surface.
     pub(crate) fn are_before(&self, number: usize) -> bool {
         self.0.get(number).is_some_and(Option::is_some)

@@ -44,6 +44,16 @@ impl<'a> AreaSource<'a> {
             _ => None,
         }
     }
+
+    /// The number of its triangles.
+    pub(crate) const fn count(self) -> usize {
+        self.triangles.len()
+    }
+
+    /// The surface as a whole, and its triangles.
+    pub(crate) const fn emitter(self) -> (&'a Emitter, &'a [[Point; 3]]) {
+        (self.emitter, self.triangles)
+    }
 }
 
 enum Seen<'a> {

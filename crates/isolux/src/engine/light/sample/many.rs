@@ -269,7 +269,7 @@ impl Lighting<'_> {
 
 /// A point of a triangle, uniform by area, and the projected solid angle that it stands for, sr;
 /// `None` where the point is not seen.
-fn by_area(
+pub(super) fn by_area(
     [a, b, c]: [Point; 3],
     twice_m2: Vector,
     at: &SurfacePoint,

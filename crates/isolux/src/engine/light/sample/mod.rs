@@ -9,3 +9,4 @@ pub(super) mod measured;
 pub(super) mod nearby;
 mod one;
 pub(super) mod patches;
+pub(super) mod pooled;

@@ -3,6 +3,7 @@
 mod effort;
 mod local_error;
 mod parts;
+mod pictured;
 mod shared_noise;
 mod sight;
 mod state;
@@ -10,7 +11,6 @@ mod told;
 mod unlit;
 mod walls;
 
-use crate::elements::PlaceOnSide;
 use crate::engine::gather::{BrightSurfaces, DirectAtEnds, DirectResidual, Gatherer, Over};
 use crate::engine::light::{Lighting, Patches};
 use crate::engine::mesh::LEAST as LEAST_OF_NOISE;
@@ -22,6 +22,7 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use effort::{FRESH_REPLICATES, LOOKS, OF_FEW, TRIAL_RAYS};
 use isolux_geometry::Ray;
+pub use pictured::PictureLight;
 use shared_noise::SharedNoise;
 use state::{Gathered, LocalFactors, StoredDirect, Unseen};
 pub use state::{MapReader, reference_lx};
@@ -31,18 +32,6 @@ pub use told::{Allowance, IndirectReading, Told};
 
 /// The number of shadow rays per emitting surface in a reading for a picture.
 pub(crate) const GLANCE_SAMPLES: usize = 4;
-/// The number of shadow rays per emitting surface where two halves of the first ones differ by more than
-/// [`GRAIN`], as in half-shadows, where noise shows as grain.
-const GRAINY_SAMPLES: usize = 32;
-
-/// The number of shadow rays to all emitting surfaces together, where rays choose among these.
-const GLANCE_RAYS: usize = 16;
-/// The number of such shadow rays where two halves of the first ones differ by more than [`GRAIN`].
-const GRAINY_RAYS: usize = 128;
-
-/// The difference of the two halves that is accepted, as a share of all light.
-const GRAIN: f64 = 0.05;
-
 /// The number of samples per element of the residual of direct light between vertices. All readings share
 /// their noise, which should be half of that of one sample.
 const KEPT: u64 = 4;
@@ -176,32 +165,29 @@ impl<'a> MapReader<'a> {
             return Some((stored, at));
         };
         let edge_m = nearby::edge_at_m(&self.map.elements, &at);
-        let is_allowed = allowance.includes(&stored);
-        let indirect = if is_allowed && self.is_trusted(fresh, &stored, (&at, edge_m)) {
+        let indirect = if self.is_trusted((fresh, allowance), &stored, (&at, edge_m)) {
             self.with_interpolation_error(stored, self.part_at(&surface))
         } else {
             let in_gap = nearby::is_closed_in(self.scene, &at, edge_m);
             let trial = Gatherer::on_surface(at, TRIAL_RAYS).in_gap(in_gap);
-            self.gathered(stored, (trial, allowance.noise), fresh.lookup_lx)
+            match allowance.noise {
+                f64::INFINITY => self.gathered(stored, trial, fresh.lookup_lx),
+                noise => self.gathered_for_picture(stored, (trial, noise), fresh.lookup_lx),
+            }
         };
         Some((indirect, at))
     }
 
-    /// Indirect light gathered over the map. The number of rays is such that noise falls to that of the map
-    /// and to a share of the light. The part of the light still read close by has the error `lookup_lx`.
-    fn gathered(
-        &self,
-        stored: Illuminance,
-        (trial, noise): (Gatherer, f64),
-        lookup_lx: f64,
-    ) -> Illuminance {
+    /// Indirect light gathered over the map. The number of rays is such that noise falls to that of the map.
+    /// The part of the light still read close by has the error `lookup_lx`.
+    fn gathered(&self, stored: Illuminance, trial: Gatherer, lookup_lx: f64) -> Illuminance {
         let key = self.gathering_key(&trial);
         let part = self.part_of(&trial);
-        let behind = self.backdrop.as_ref().and_then(|b| b.behind(self.scene, &trial.stand()));
-        let trial = Gatherer { behind, ..trial };
+        let trial = self.before_walls(trial);
         // Other random numbers than those of the trial: stopping at a small variance would report too small
         // variances.
-        let gatherer = trial.with_rays(self.rays_needed(trial, noise, part, key).rays);
+        let needed = self.rays_needed(trial, self.noise_goal_lx(part), key);
+        let gatherer = trial.with_rays(needed.rays);
         let Gathered { lx, variance, close, common_lx } =
             self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
         let samples = u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays);
@@ -218,46 +204,6 @@ impl<'a> MapReader<'a> {
             samples,
             ..stored
         }
-    }
-
-    /// The illuminance at a place by a few shadow rays per emitting surface, for pictures, which average over
-    /// many places. It is noisy, and the standard error leaves that noise out. `number` tells readings of one
-    /// place apart. Indirect light is interpolated, unless `known` gives it.
-    pub fn glance(
-        &self,
-        place: PlaceOnSide,
-        number: u64,
-        known: Option<IndirectReading>,
-    ) -> Option<Illuminance> {
-        let stored = self.map.interpolate(place.triangle, place.back, place.uv[0], place.uv[1])?;
-        let stored = known.map_or(stored, |known| Illuminance {
-            indirect_lx: known.lx,
-            indirect_standard_error_lx: known.noise_lx,
-            ..stored
-        });
-        let at = self.places.pulled_in(SurfacePoint::on_side(self.scene, place));
-        let sequence = Sequence::new(place_key(at.point).with(number));
-        let dice = &mut Dice::new(sequence, 0);
-        let direct = self.glanced(&at, stored.illuminance_lx(), dice);
-        Some(Illuminance {
-            direct_lx: direct + stored.caustic_lx,
-            standard_error_lx: stored.indirect_standard_error_lx,
-            ..stored
-        })
-    }
-
-    /// Direct light for a picture, at a place with about `about_lx` of light in all.
-    fn glanced(&self, at: &SurfacePoint, about_lx: f64, dice: &mut Dice) -> Rgb {
-        let (lighting, patches) = (&self.lighting, &self.patches);
-        if lighting.has_faces() {
-            let of = |rays| lighting.by_rays_on(patches, at, rays, dice);
-            return without_grain(of, [GLANCE_RAYS, GRAINY_RAYS], about_lx);
-        }
-        let mut of = |samples| lighting.sampled_on(patches, at, samples, dice);
-        if lighting.has_many() || self.scene.area_luminaires().is_empty() {
-            return of(GLANCE_SAMPLES);
-        }
-        without_grain(of, [GLANCE_SAMPLES, GRAINY_SAMPLES], about_lx)
     }
 
     /// The illuminance at a point on a surface, on the side that `normal` points to, as [`MapReader::at`]
@@ -278,8 +224,7 @@ impl<'a> MapReader<'a> {
                 return None;
             }
             let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
-            let indirect =
-                self.gathered(Illuminance::NOTHING, (trial, Allowance::ANY.noise), lookup_lx);
+            let indirect = self.gathered(Illuminance::NOTHING, trial, lookup_lx);
             let part = self.part_of(&trial);
             Some(self.told(self.with_fresh_direct(indirect, (&trial.surface, part))))
         })
@@ -373,19 +318,6 @@ impl<'a> MapReader<'a> {
         let accuracy = self.map.provenance.accuracy;
         accuracy.map_or(0.0, |a| (a.bias * a.bias + a.discretization * a.discretization).sqrt())
     }
-}
-
-/// Light by a few samples, or by many where two halves of the few differ much.
-fn without_grain(
-    mut sampled: impl FnMut(usize) -> Rgb,
-    [few, many]: [usize; 2],
-    about_lx: f64,
-) -> Rgb {
-    let halves = [sampled(few / 2), sampled(few / 2)];
-    let mean = (halves[0] + halves[1]) * 0.5;
-    let apart_lx = (halves[0] - halves[1]).luminance().abs();
-    let is_grainy = apart_lx > GRAIN * about_lx.max(mean.luminance());
-    if is_grainy { sampled(many) } else { mean }
 }
 
 /// The least variance of light gathered by `samples` rays where the map has a value with noise. Fewer rays

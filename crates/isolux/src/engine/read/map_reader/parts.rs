@@ -145,7 +145,7 @@ impl MapReader<'_> {
     ) -> Option<Gatherer> {
         let fresh = self.map.provenance.fresh?;
         let edge_m = nearby::edge_at_m(&self.map.elements, at);
-        let is_trusted = allowance.includes(stored) && self.is_trusted(fresh, stored, (at, edge_m));
+        let is_trusted = self.is_trusted((fresh, allowance), stored, (at, edge_m));
         (!is_trusted).then(|| {
             let in_gap = nearby::is_closed_in(self.scene, at, edge_m);
             Gatherer::on_surface(*at, TRIAL_RAYS).in_gap(in_gap)
@@ -158,8 +158,8 @@ impl MapReader<'_> {
     fn one_of_each(&self, trials: &[Gatherer]) -> (Vec<(Rgb, f64)>, f64) {
         let Some(first) = trials.first() else { return (Vec::new(), 0.0) };
         let key = self.gathering_key(first);
-        let Needed { rays, variance } =
-            self.rays_needed(*first, Allowance::ANY.noise, self.part_at(&first.surface), key);
+        let goal_lx = self.noise_goal_lx(self.part_at(&first.surface));
+        let Needed { rays, variance } = self.rays_needed(*first, goal_lx, key);
         let rows: Vec<Gatherer> = trials.iter().map(|trial| trial.with_rays(rays)).collect();
         let operator =
             self.gathering(self.direct_at_ends()).operator(&rows, |k| key.with(1).with(k as u64));

@@ -2,6 +2,7 @@
 
 use super::effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, TRIAL_RAYS};
 use super::shared_noise::SharedNoise;
+use super::told::Allowance;
 use crate::elements::Element;
 use crate::engine::gather::{BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering};
 use crate::engine::judge::Light;
@@ -107,18 +108,19 @@ impl<'a> MapReader<'a> {
     /// Whether the map's value is trusted at a place on an element with these edges.
     pub(super) fn is_trusted(
         &self,
-        fresh: Fresh,
+        (fresh, allowance): (Fresh, Allowance),
         stored: &Illuminance,
         (at, edge_m): (&SurfacePoint, f64),
     ) -> bool {
-        if stored.standing != Standing::Open {
+        if stored.standing != Standing::Open
+            || stored.interpolation_error_lx > allowance.trusted_lx(fresh, stored)
+        {
             return false;
         }
-        if fresh.in_gaps_alone {
-            return !nearby::is_closed_in(self.scene, at, edge_m);
+        match fresh.in_gaps_alone {
+            true => !nearby::is_closed_in(self.scene, at, edge_m),
+            false => !nearby::is_beset(self.scene, at, edge_m),
         }
-        stored.interpolation_error_lx <= fresh.above_lx.unwrap_or(f64::INFINITY)
-            && !nearby::is_beset(self.scene, at, edge_m)
     }
 
     /// A value of the map with its expected interpolation error. Half of the squared error of the scene is
@@ -154,18 +156,26 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// The number of rays per replicate that reaches the noise goal, from a trial that is then discarded. The goal is
-    /// a share of the error of the map times the local factor `part`, but at most the share `noise` of the light.
-    pub(super) fn rays_needed(&self, trial: Gatherer, noise: f64, part: f64, key: Key) -> Needed {
+    /// The number of rays per replicate that reaches the noise goal in lux, from a trial that is then discarded.
+    pub(super) fn rays_needed(&self, trial: Gatherer, goal: f64, key: Key) -> Needed {
         let of_trial = (FRESH_REPLICATES, key.with(0));
-        let Gathered { lx, variance, .. } = self.gather(trial, self.direct_at_ends(), of_trial);
-        let goal = (FRESH_NOISE * part * self.unseen.reached_lx).min(noise * lx.luminance());
-        let rays = f64::from(TRIAL_RAYS)
-            * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / ORDER_CLOSE_BY);
+        let Gathered { variance, .. } = self.gather(trial, self.direct_at_ends(), of_trial);
+        let rays = f64::from(TRIAL_RAYS) * times_rays(variance, goal);
         let rays = libm::log2(rays.clamp(FRESH_FEWEST_RAYS, FRESH_MOST_RAYS));
         let rays: u32 = 1 << libm::round(rays) as u32;
         let finer = f64::from(TRIAL_RAYS) / f64::from(rays);
         Needed { rays, variance: variance * libm::pow(finer, 2.0 * ORDER_CLOSE_BY) }
+    }
+
+    /// The noise goal of indirect light in readings, lx: a share of the error of the map times a local factor.
+    pub(super) fn noise_goal_lx(&self, part: f64) -> f64 {
+        FRESH_NOISE * part * self.unseen.reached_lx
+    }
+
+    /// The gatherer with the control variate of its place.
+    pub(super) fn before_walls(&self, gatherer: Gatherer) -> Gatherer {
+        let behind = self.backdrop.as_ref().and_then(|b| b.behind(self.scene, &gatherer.stand()));
+        Gatherer { behind, ..gatherer }
     }
 
     pub(super) fn gathering<'b>(&'b self, direct: DirectAtEnds<'b>) -> Gathering<'b> {
@@ -255,6 +265,11 @@ impl<'a> MapReader<'a> {
         let at = SurfacePoint::new(self.scene, element.triangle, element.back, u, v);
         (Gatherer::on_surface(at, 0), 0.5 * (b - a).cross(c - a).length())
     }
+}
+
+/// The factor on the number of rays that brings a variance to the square of a noise goal.
+pub(super) fn times_rays(variance: f64, goal: f64) -> f64 {
+    libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / ORDER_CLOSE_BY)
 }
 
 impl Unseen {

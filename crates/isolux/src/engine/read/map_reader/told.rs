@@ -1,16 +1,17 @@
 //! Readings of the indirect light of a place.
 
-use crate::map::Illuminance;
+use crate::map::{Fresh, Illuminance};
 use crate::units::Rgb;
 
-/// The errors allowed in indirect light, as shares of the light there. The trust and the noise goal of the
-/// map may be stricter.
+/// The errors allowed in indirect light, as shares of all light there. Below things that stand on a surface, light is
+/// gathered in any case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Allowance {
-    /// The noise of gathered light, as a share of indirect light (best effort: the number of rays is
-    /// limited).
+    /// The noise of gathered light, in place of that of readings (best effort: the number of rays is
+    /// limited). Infinite: the noise of readings.
     pub noise: f64,
-    /// The expected interpolation error, as a share of all light. Where it is larger, light is gathered.
+    /// The expected interpolation error, in place of that of readings. Where it is larger, light is gathered.
+    /// Infinite: that of readings.
     pub interpolation: f64,
 }
 
@@ -18,11 +19,15 @@ impl Allowance {
     /// The errors that the map itself allows.
     pub const ANY: Self = Self { noise: f64::INFINITY, interpolation: f64::INFINITY };
 
-    /// Whether the expected interpolation error of a value of the map is allowed.
-    pub(super) fn includes(&self, stored: &Illuminance) -> bool {
-        // A value of zero is allowed, too.
-        self.interpolation == f64::INFINITY
-            || stored.interpolation_error_lx <= self.interpolation * stored.illuminance_lx()
+    /// The expected interpolation error up to which a value of the map is trusted, lx.
+    pub(super) fn trusted_lx(&self, fresh: Fresh, stored: &Illuminance) -> f64 {
+        if self.interpolation < f64::INFINITY {
+            self.interpolation * stored.illuminance_lx()
+        } else if fresh.in_gaps_alone {
+            f64::INFINITY
+        } else {
+            fresh.above_lx.unwrap_or(f64::INFINITY)
+        }
     }
 }
 
