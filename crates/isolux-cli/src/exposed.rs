@@ -1,13 +1,51 @@
-//! Pictures in which nothing is to be seen: too little or too much light for their exposure.
+//! Views in which nothing is to be seen: no light, or too little or too much of it for their exposure.
 
+use crate::failure::Failure;
 use crate::notes::{Note, note};
+use crate::shown::name;
 use crate::quantity::{show_share, significant};
-use isolux_view::{Development, Exposure, LuminanceImage, Picture, ToneOperator};
+use isolux_view::{Development, Exposure, LuminanceImage, Picture, Sight, ToneOperator};
 
 /// Shares of the lit pixels that are black or burnt out from which on nothing is to be seen.
 const NEARLY_ALL: f64 = 0.99;
 /// The brightest channel of a pixel that is told from black by nobody: a thousandth of white.
 const BLACK_UP_TO: u8 = 3;
+
+/// From this share of backs on the eye is taken to be inside of a solid.
+const MOSTLY_BACKS: f64 = 0.9;
+
+/// Refuses a view without light, which would be a black picture. A chart shows 0 lx of what is seen.
+pub(crate) fn check(
+    view: &LuminanceImage,
+    camera: &str,
+    charts_alone: bool,
+) -> Result<(), Failure> {
+    let pixels = 0..view.size().pixels();
+    if pixels.clone().any(|pixel| view.luminance_cd_m2(pixel).luminance() > 0.0) {
+        return Ok(());
+    }
+    let surfaces: Vec<bool> = pixels.filter_map(|at| view.surface(at)).map(|at| at.back).collect();
+    let is_read = (0..view.size().pixels()).any(|pixel| view.reading(pixel).is_some());
+    if charts_alone && is_read {
+        return Ok(());
+    }
+    let is_empty = |pixel| view.samples(pixel).iter().all(|s| s.sight == Sight::Background);
+    let backs = surfaces.iter().filter(|back| **back).count() as f64;
+    let (what, remedy) = match () {
+        () if (0..view.size().pixels()).all(is_empty) => {
+            ("sees no surface", "look towards the scene, or leave the view out for one inside")
+        }
+        () if backs >= MOSTLY_BACKS * surfaces.len() as f64 && backs > 0.0 => (
+            "sees nothing but unlit backs of surfaces: it is inside of a solid, or behind a wall",
+            "move it into the room",
+        ),
+        () => ("sees no light on any surface", "check where it is and where it looks"),
+    };
+    Err(Failure::bad_input(format!(
+        "camera `{}` {what}: the picture would be black, and is not written; {remedy}",
+        name(camera)
+    )))
+}
 
 /// Tells of a view that is developed to a picture without anything to be seen.
 pub(crate) fn warn(view: &LuminanceImage, picture: &Picture, how: &Development) {
@@ -21,10 +59,7 @@ fn problem(view: &LuminanceImage, picture: &Picture, how: &Development) -> Optio
     let brightest = |pixel: usize| picture.rgb[pixel].into_iter().max();
     let lit: Vec<u8> = (0..view.size().pixels()).filter(is_lit).filter_map(brightest).collect();
     if lit.is_empty() {
-        return Some(
-            "nothing that the camera sees is lit: the picture is black; check where it looks"
-                .into(),
-        );
+        return None;
     }
     let share = |of: &dyn Fn(u8) -> bool| {
         lit.iter().filter(|&&value| of(value)).count() as f64 / lit.len() as f64

@@ -1,11 +1,12 @@
 //! Arguments as written.
 
+mod render;
 mod shown;
 mod solve;
 
+pub(crate) use render::{EyeFlags, LookFlags, RadianceFlags, RenderFlags, ToneName, with_two_dashes};
 pub(crate) use shown::{
-    ExportFlags, EyeFlags, LayoutFlags, LayoutName, LookFlags, RenderFlags, ServerFlags,
-    TargetName, ToneName, ViewFlags,
+    ExportFlags, LayoutFlags, LayoutName, ServerFlags, TargetName, ViewFlags,
 };
 pub(crate) use solve::{BakeFlags, MethodName, ProgressStyle, Quality, RadiosityFlags, SolveFlags};
 
@@ -47,7 +48,7 @@ pub(crate) enum Command {
     Grid(GridFlags),
     /// Compute the light of a scene and write it for an engine: solve and export in one
     Bake(BakeFlags),
-    /// Draw a view from a map
+    /// Draw views from a map, or of a scene
     Render(RenderFlags),
     /// Walk through a map in a browser
     View(ViewFlags),

@@ -1,6 +1,7 @@
 //! Views from a map whose indirect light is gathered where the map is not to be trusted, as readings have it: on a net of
 //! pixels, so that few of them take rays.
 
+use crate::camera::View;
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
 use crate::trace::{SurfacePoint, TraceSettings, trace, trace_watched};
@@ -8,7 +9,7 @@ use isolux::elements::PlaceOnSide;
 use isolux::engine::net::{Filled, Fineness, Net, Wanted};
 use isolux::engine::{Allowance, IndirectReading, MapReader, Told};
 use isolux::map::{Illuminance, IlluminationMap};
-use isolux::scene::{Camera, Scene};
+use isolux::scene::Scene;
 use isolux::units::Rgb;
 use rayon::prelude::*;
 use std::convert::Infallible;
@@ -55,12 +56,13 @@ pub enum ViewProgress {
 /// interpolated). `watch` is told how far that is.
 pub fn trace_map(
     (scene, map): (&Scene, &IlluminationMap),
-    camera: &Camera,
+    view: impl Into<View>,
     size: Size,
     (settings, watch): (&TraceSettings, &mut dyn FnMut(ViewProgress)),
 ) -> Result<(LuminanceImage, Gathered), ViewError> {
+    let view = view.into();
     let reader = MapReader::new(scene, map);
-    let places = asked(scene, camera, size, settings)?;
+    let places = asked(scene, view, size, settings)?;
     let (light, report) = PixelLight::new((scene, map), &reader, (size, places), watch);
     let read = |at: SurfacePoint| -> Option<Illuminance> {
         let SurfacePoint { triangle, back, u, v, blurred, .. } = at;
@@ -80,14 +82,14 @@ pub fn trace_map(
         reader.glance(on_side(&at), 0, known)
     };
     let watch = &mut |share| watch(ViewProgress::Looking(share));
-    let image = trace_watched(scene, camera, size, settings, (&read, watch))?;
+    let image = trace_watched(scene, view, size, settings, (&read, watch))?;
     Ok((image, report))
 }
 
 /// A look in the dark: what is to be seen sharply in the middles of pixels, in their order.
 fn asked(
     scene: &Scene,
-    camera: &Camera,
+    view: View,
     size: Size,
     settings: &TraceSettings,
 ) -> Result<Vec<SurfacePoint>, ViewError> {
@@ -100,7 +102,7 @@ fn asked(
         }
         None
     };
-    trace(scene, camera, size, &middles, &ask)?;
+    trace(scene, view, size, &middles, &ask)?;
     let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
     let key = |at: &SurfacePoint| (at.pixel, at.path);
     all.sort_unstable_by(|a, b| {

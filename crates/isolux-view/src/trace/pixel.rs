@@ -113,8 +113,8 @@ impl Pixels<'_> {
         };
         let x = left as f64 + within(cell % self.per_side, 0);
         let y = top as f64 + within(cell / self.per_side, 1);
-        let (ray, direction) = self.rays.through(x, y);
-        self.looker.meet(&ray, direction)
+        let ray = self.rays.through(x, y);
+        ray.map_or(Meeting::NOTHING, |(ray, direction)| self.looker.meet(&ray, direction))
     }
 
     fn key(&self, pixel: usize, cell: u32) -> Key {
