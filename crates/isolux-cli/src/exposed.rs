@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::notes::{Note, note};
-use crate::shown::name;
 use crate::quantity::{show_share, significant};
+use crate::shown::name;
 use isolux_view::{Development, Exposure, LuminanceImage, Picture, Sight, ToneOperator};
 
 /// Shares of the lit pixels that are black or burnt out from which on nothing is to be seen.
@@ -14,35 +14,45 @@ const BLACK_UP_TO: u8 = 3;
 /// From this share of backs on the eye is taken to be inside of a solid.
 const MOSTLY_BACKS: f64 = 0.9;
 
-/// Refuses a view without light, which would be a black picture. A chart shows 0 lx of what is seen.
+/// Refuses a view that would be a black picture: without light, or with next to nothing of what it sees in any. A chart shows 0 lx of
+/// what is known to be dark.
 pub(crate) fn check(
     view: &LuminanceImage,
     camera: &str,
     charts_alone: bool,
 ) -> Result<(), Failure> {
     let pixels = 0..view.size().pixels();
-    if pixels.clone().any(|pixel| view.luminance_cd_m2(pixel).luminance() > 0.0) {
+    let is_seen =
+        |&pixel: &usize| view.samples(pixel).iter().any(|seen| seen.sight != Sight::Background);
+    let shines = |pixel| view.luminance_cd_m2(pixel).luminance() > 0.0;
+    // Black surfaces in light are lit, too.
+    let is_lit = |pixel| match view.reading(pixel) {
+        Some(reading) => charts_alone || reading.illuminance_lx > 0.0 || shines(pixel),
+        None => shines(pixel),
+    };
+    let seen: Vec<usize> = pixels.filter(is_seen).collect();
+    let share = |count: usize| count as f64 / seen.len().max(1) as f64;
+    let lit = share(seen.iter().filter(|&&pixel| is_lit(pixel)).count());
+    let has_light = charts_alone || seen.iter().any(|&pixel| shines(pixel));
+    if lit > 1.0 - NEARLY_ALL && has_light {
         return Ok(());
     }
-    let surfaces: Vec<bool> = pixels.filter_map(|at| view.surface(at)).map(|at| at.back).collect();
-    let is_read = (0..view.size().pixels()).any(|pixel| view.reading(pixel).is_some());
-    if charts_alone && is_read {
-        return Ok(());
-    }
-    let is_empty = |pixel| view.samples(pixel).iter().all(|s| s.sight == Sight::Background);
-    let backs = surfaces.iter().filter(|back| **back).count() as f64;
+    let is_back = |&&pixel: &&usize| view.surface(pixel).is_some_and(|surface| surface.back);
     let (what, remedy) = match () {
-        () if (0..view.size().pixels()).all(is_empty) => {
+        () if seen.is_empty() => {
             ("sees no surface", "look towards the scene, or leave the view out for one inside")
         }
-        () if backs >= MOSTLY_BACKS * surfaces.len() as f64 && backs > 0.0 => (
+        () if share(seen.iter().filter(is_back).count()) >= MOSTLY_BACKS => (
             "sees nothing but unlit backs of surfaces: it is inside of a solid, or behind a wall",
             "move it into the room",
         ),
-        () => ("sees no light on any surface", "check where it is and where it looks"),
+        () => (
+            "sees no light on any surface: it is inside of a solid, behind a wall, or in the dark",
+            "check where it is and where it looks",
+        ),
     };
     Err(Failure::bad_input(format!(
-        "camera `{}` {what}: the picture would be black, and is not written; {remedy}",
+        "camera `{}` {what}; the picture would be black and is not written; {remedy}",
         name(camera)
     )))
 }

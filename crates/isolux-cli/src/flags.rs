@@ -4,10 +4,10 @@ mod render;
 mod shown;
 mod solve;
 
-pub(crate) use render::{EyeFlags, LookFlags, RadianceFlags, RenderFlags, ToneName, with_two_dashes};
-pub(crate) use shown::{
-    ExportFlags, LayoutFlags, LayoutName, ServerFlags, TargetName, ViewFlags,
+pub(crate) use render::{
+    EyeFlags, LookFlags, RadianceFlags, RenderFlags, ToneName, with_two_dashes,
 };
+pub(crate) use shown::{ExportFlags, LayoutFlags, LayoutName, ServerFlags, TargetName, ViewFlags};
 pub(crate) use solve::{BakeFlags, MethodName, ProgressStyle, Quality, RadiosityFlags, SolveFlags};
 
 use solve::SCENE_HELP;

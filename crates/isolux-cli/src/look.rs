@@ -60,10 +60,15 @@ impl Look {
             (ExposureChoice::Map, None) => Exposure::Automatic,
             (ExposureChoice::Map, Some(map)) => {
                 let preview = Preview::automatic(scene, map);
-                if let ToneOperator::Reinhard { white } = &mut how.tone {
-                    *white = preview.exposure_m2_cd * preview.white_cd_m2;
+                match &mut how.tone {
+                    ToneOperator::Filmic => Preview::adaptation_cd_m2(scene, map)
+                        .map_or(Exposure::Automatic, Exposure::GreyCdM2),
+                    ToneOperator::Reinhard { white } => {
+                        *white = preview.exposure_m2_cd * preview.white_cd_m2;
+                        Exposure::WhiteCdM2(1.0 / preview.exposure_m2_cd)
+                    }
+                    _ => Exposure::WhiteCdM2(1.0 / preview.exposure_m2_cd),
                 }
-                Exposure::WhiteCdM2(1.0 / preview.exposure_m2_cd)
             }
         };
         self
@@ -122,7 +127,8 @@ fn tone(flags: &LookFlags) -> Result<ToneOperator, Failure> {
             brightness: flags.brightness.unwrap_or(0.0),
             contrast: flags.contrast.unwrap_or(1.0),
         },
-        ToneName::Reinhard => ToneOperator::default(),
+        ToneName::Filmic => ToneOperator::Filmic,
+        ToneName::Reinhard => ToneOperator::REINHARD,
         ToneName::Hable => ToneOperator::Hable,
         ToneName::Ward => ToneOperator::Ward,
         ToneName::TumblinRushmeier => ToneOperator::TumblinRushmeier,

@@ -134,7 +134,8 @@ impl ViewRays {
                 along(across * half * aspect, up * half, 1.0)
             }
             Projection::Parallel { width_m, height_m } => {
-                let beside = self.right * (0.5 * across * width_m) + self.top * (0.5 * up * height_m);
+                let beside =
+                    self.right * (0.5 * across * width_m) + self.top * (0.5 * up * height_m);
                 let forward = self.view.direction;
                 return Some((Ray::new(position + beside, forward), forward));
             }
@@ -269,8 +270,7 @@ mod tests {
         let direction = Vector::new(0.0, 1.0, -0.7).direction().unwrap();
         let (up, projection) = (Direction::Z, Projection::Panorama);
         let view = View { position: Point::ORIGIN, direction, up, projection };
-        let (_, level) =
-            ViewRays::new(view, Size::new(2, 1).unwrap()).through(1.0, 0.5).unwrap();
+        let (_, level) = ViewRays::new(view, Size::new(2, 1).unwrap()).through(1.0, 0.5).unwrap();
         assert!((level.to_vector() - Vector::new(0.0, 1.0, 0.0)).length() < 1e-15 * 12.0);
     }
 

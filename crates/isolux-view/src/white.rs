@@ -88,7 +88,8 @@ mod tests {
         let warm = shown(WARM);
         assert!(warmth(warm) > 1.05 && warmth(warm) < 1.6, "{warm:?}");
         assert!((warm.luminance() / WARM.luminance() - 1.0).abs() < 1e-3);
-        for coloured in [Rgb::new(1.0, 0.0, 0.0), Rgb::new(0.0, 1.0, 0.1), Rgb::new(0.0, 0.0, 1.0)] {
+        for coloured in [Rgb::new(1.0, 0.0, 0.0), Rgb::new(0.0, 1.0, 0.1), Rgb::new(0.0, 0.0, 1.0)]
+        {
             for (got, wanted) in shown(coloured).0.into_iter().zip(coloured.0) {
                 // A few roundings of numbers up to 4.
                 assert!((got - wanted).abs() < 1e-14, "{coloured:?}");

@@ -19,6 +19,8 @@ export class Shown {
   #lines: number[] = [];
 
   constructor(readonly container: Container<SceneHeader>, readonly uniforms: Uniforms) {
+    const { white_balance: [r, g, b] } = container.header;
+    uniforms.uBalance.value.set(...r, ...g, ...b);
     for (const { name, codes } of container.header.colour_maps) this.#codes.set(name, container.numbers<Uint8Array>(codes));
   }
 

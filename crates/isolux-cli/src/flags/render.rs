@@ -143,7 +143,7 @@ pub(crate) struct LookFlags {
           conflicts_with = "false_colour", allow_hyphen_values = true)]
     pub exposure: ExposureChoice,
     /// How luminance is fitted to the display
-    #[arg(long, value_enum, default_value = "reinhard", conflicts_with = "false_colour")]
+    #[arg(long, value_enum, default_value = "filmic", conflicts_with = "false_colour")]
     pub tone: ToneName,
     /// With --tone linear: what is added to the signal, -1 to 1 [default: 0]
     #[arg(long, value_name = "N", value_parser = appearance::brightness, conflicts_with = "false_colour",
@@ -186,6 +186,8 @@ pub(crate) struct LookFlags {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ToneName {
+    /// Proportional, with a shoulder for what is bright: as a photograph of a room
+    Filmic,
     /// Proportional, cut off at white: the picture can be measured
     Linear,
     /// Reinhard's photographic curve
@@ -197,4 +199,3 @@ pub(crate) enum ToneName {
     /// Tumblin and Rushmeier's power: as bright here as there
     TumblinRushmeier,
 }
-

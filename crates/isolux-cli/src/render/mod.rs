@@ -45,11 +45,7 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     }
     if !drawn.is_empty() {
         let report = Report::of(drawn);
-        if json {
-            print_json(&report)?
-        } else {
-            print(&report.text())?
-        }
+        if json { print_json(&report)? } else { print(&report.text())? }
     }
     if problems.is_empty() { Ok(Outcome::Done) } else { Err(Failure::BadInput(problems)) }
 }
@@ -157,8 +153,7 @@ fn write_luminance(output: &OutputPath, kind: Kind, view: &LuminanceImage) -> Re
         Kind::Exr => encode_exr(&luminances),
         _ => encode_radiance(&luminances),
     };
-    let bytes =
-        bytes.map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
+    let bytes = bytes.map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
     output.write(&bytes)
 }
 

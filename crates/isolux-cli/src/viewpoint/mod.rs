@@ -8,7 +8,7 @@ use crate::flags::EyeFlags;
 use crate::shown::names;
 pub(crate) use inside::IsLit;
 use isolux::geometry::{Point, Vector};
-use isolux::scene::{Camera, Scene};
+use isolux::scene::{Camera, Scene, UpAxis};
 use isolux_view::{Projection, View};
 use overview::{Gaze, VERTICAL_FOV_RAD, gaze, overview, up_of};
 
@@ -36,7 +36,7 @@ pub(crate) fn chosen(
     if flags.panorama {
         let up = up_of(scene);
         for NamedView { view, .. } in &mut views {
-            // Eyes that look straight up have no way of their own to look along.
+            // Eyes that look straight up or down have ahead of them what is up in their picture.
             if gaze(view.direction.to_vector(), up.to_vector()).is_err() {
                 view.direction = view.up;
             }
@@ -77,9 +77,22 @@ fn eye_of(scene: &Scene, position: [f64; 3], flags: &EyeFlags) -> Result<View, S
     let towards = flags.target.map_or_else(middle, point) - position;
     let up = flags.up.map_or_else(|| up_of(scene).to_vector(), |[x, y, z]| Vector::new(x, y, z));
     let vertical_rad = flags.fov.map_or(VERTICAL_FOV_RAD, f64::to_radians);
-    let Gaze { direction, up } = gaze(towards, up)
+    // Who looks all around needs no target, even straight above or below the middle.
+    let found = match gaze(towards, up) {
+        Err(_) if flags.panorama && flags.target.is_none() => gaze(ahead(scene), up),
+        found => found,
+    };
+    let Gaze { direction, up } = found
         .map_err(|problem| format!("--eye: {problem}; give another --target, or --up X,Y,Z"))?;
     Ok(View { position, direction, up, projection: Projection::Perspective { vertical_rad } })
+}
+
+/// A level way: north in plans, and ahead in glTF.
+fn ahead(scene: &Scene) -> Vector {
+    match scene.up() {
+        UpAxis::Y => Vector::new(0.0, 0.0, -1.0),
+        UpAxis::Z => Vector::new(0.0, 1.0, 0.0),
+    }
 }
 
 /// The camera of that name, or what is wrong with it; without a name, the first one of the scene,

@@ -38,9 +38,8 @@ impl Default for Options {
 /// The view of a view file, with the options beside it, or what is wrong with them. Nothing if neither is given.
 pub(super) fn asked(flags: &RadianceFlags) -> Result<Option<View>, String> {
     let RadianceFlags { radiance_view, vt, vp, vd, vu, vh, vv } = flags;
-    let is_given = [vp, vd, vu].iter().any(|option| option.is_some())
-        || vh.or(*vv).is_some()
-        || vt.is_some();
+    let is_given =
+        [vp, vd, vu].iter().any(|option| option.is_some()) || vh.or(*vv).is_some() || vt.is_some();
     let mut options = match radiance_view {
         Some(path) => read(path)?,
         None if is_given => Options::default(),
@@ -136,7 +135,10 @@ impl Options {
             let is_right = value > 0.0 && (value < most || value == most && !is_open);
             let end = if is_open { "less than" } else { "up to" };
             is_right.then_some(value).ok_or_else(|| match most.is_finite() {
-                true => format!("{option} {value}: -vt{} takes more than 0 and {end} {most} degrees", self.kind),
+                true => format!(
+                    "{option} {value}: -vt{} takes more than 0 and {end} {most} degrees",
+                    self.kind
+                ),
                 false => format!("{option} {value}: -vt{} takes a length above 0", self.kind),
             })
         };

@@ -5,7 +5,8 @@ use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_formats::walk::{ColourMap, Steps, Told, Tone};
 use isolux_view::{
-    ColourMap as Map, Development, Exposure, Scale, Spaced, ToneOperator, round_limits, tone_table,
+    ColourMap as Map, Development, Exposure, Scale, Spaced, ToneOperator, colour_of_light,
+    nearly_white, round_limits, tone_table,
 };
 
 /// The layer of a map whose light is not known by groups.
@@ -25,6 +26,7 @@ pub(crate) fn told(
         file: file.to_owned(),
         about: about(map),
         white_cd_m2: white_cd_m2((scene, map), camera),
+        white_balance: white_balance(scene),
         tones: tones(),
         colour_maps: colour_maps(),
         scale_lx: limits_lx(map),
@@ -46,13 +48,20 @@ fn white_cd_m2((scene, map): (&Scene, &IlluminationMap), camera: &Camera) -> f64
     view.and_then(|view| Exposure::Automatic.white_cd_m2(&view).ok()).unwrap_or(1.0)
 }
 
+/// The adaptation to the light of the scene; none where it has no light.
+fn white_balance(scene: &Scene) -> [[f64; 3]; 3] {
+    let unchanged = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    colour_of_light(scene).and_then(nearly_white).unwrap_or(unchanged)
+}
+
 /// The tone operators of `render`, its usual one first.
 fn tones() -> Vec<Tone> {
     let display_white_cd_m2 = Development::default().display_white_cd_m2;
     let all = [
-        ("reinhard", "Reinhard 2002", ToneOperator::default()),
+        ("filmic", "filmic", ToneOperator::Filmic),
+        ("reinhard", "Reinhard 2002", ToneOperator::REINHARD),
         ("linear", "linear", ToneOperator::LINEAR),
-        ("hable", "filmic (Hable 2010)", ToneOperator::Hable),
+        ("hable", "Hable 2010", ToneOperator::Hable),
         ("ward", "Ward 1994: visible contrast", ToneOperator::Ward),
         (
             "tumblin-rushmeier",

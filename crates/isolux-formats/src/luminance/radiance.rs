@@ -89,7 +89,8 @@ mod tests {
             let start = bytes.windows(head.len()).position(|w| w == head.as_bytes()).unwrap();
             let body = &bytes[start + head.len()..];
             let pieces = (width as usize).div_ceil(LITERAL);
-            let row = if width < 8 { 4 * width as usize } else { 4 + 4 * (width as usize + pieces) };
+            let row =
+                if width < 8 { 4 * width as usize } else { 4 + 4 * (width as usize + pieces) };
             assert_eq!(body.len(), 2 * row, "{width}");
         }
     }
