@@ -74,12 +74,13 @@ pub(crate) fn look(
     }
     let settings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
     let asked = Mutex::new(Vec::new());
-    // A first look in the dark finds what is in view; it costs little, as no light is evaluated.
+    // A first look in the dark finds what is in view; it costs little, as no light is evaluated, that of luminaires in gloss neither.
+    let in_the_dark = TraceSettings { highlights: false, ..settings };
     let ask = |at: SurfacePoint| {
         asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(place(at));
         None
     };
-    trace(scene, view, size, &settings, &ask).map_err(Failure::bad_input)?;
+    trace(scene, view, size, &in_the_dark, &ask).map_err(Failure::bad_input)?;
     let asked = asked.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     let served = reader.serve_until(&asked, &|| interrupt.is_requested());
     cache_samples::keep(&mut file, &served.made);

@@ -214,7 +214,7 @@ mod tests {
             View { position: Point::ORIGIN, direction: Direction::Y, up: Direction::Z, projection };
         let rays = ViewRays::new(view, Size::new(200, 100).unwrap());
         let (ray, _) = rays.through(200.0, 0.0).unwrap();
-        assert_eq!(<[f64; 3]>::from(ray.origin()), [4.0, 0.0, 2.0]);
+        assert_eq!(<[f64; 3]>::from(ray.origin), [4.0, 0.0, 2.0]);
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub(crate) fn with_two_dashes(word: OsString) -> OsString {
   isolux render map.glb --camera door -o door.png --exposure ev9 --tone linear --brightness 0.1 --contrast 1.2
   isolux render map.glb --camera door -o door.png --tone ward --display-white 250cd/m2 --profile monitor.icc
   isolux render map.glb --camera door -o door.png --exposure map --white 2700K --profile display-p3
-  isolux render builtin:hall --cache hall.cache --camera entrance -o entrance.png
+  isolux render builtin:hall --cache hall.cache --camera nave -o nave.png
 
 Without a camera, and if the scene has none, the view is from eye height inside, where most lit space is seen.
 
