@@ -38,7 +38,7 @@ pub use false_colour::{
 };
 pub use gathered::{Gathered, ViewProgress, trace_map};
 pub use image::{LuminanceImage, Reading, Seen, Sight, Size, Surface};
-pub use light::colour_of_light;
+pub use light::{colour_of_light, light_of_groups};
 pub use picture::{Picture, UNKNOWN};
 pub use plan::plan;
 pub use polar::PolarDiagram;
@@ -46,4 +46,4 @@ pub use profile::{MAX_ICC_BYTES, MonitorProfile, ProfileError};
 pub use tables::{Spaced, ToneTable, tone_table};
 pub use tone::{Levels, ToneMap, ToneOperator};
 pub use trace::{Read, SurfacePoint, TraceSettings, trace, trace_watched};
-pub use white::{WhiteAdaptation, nearly_white};
+pub use white::WhiteAdaptation;

@@ -15,16 +15,25 @@ const MIREDS: std::ops::RangeInclusive<u32> = 80..=625;
 /// The colour of the light of a scene, of luminance 1: the mean over its luminaires by their flux. Parallel light counts by what falls
 /// through the box around the scene, in the mean over all directions. `None` for a scene without light.
 pub fn colour_of_light(scene: &Scene) -> Option<Rgb> {
-    let surfaces = scene.area_luminaires().iter();
-    let of_surfaces: Rgb =
-        surfaces.map(|of| of.luminance_cd_m2.chromaticity() * of.luminous_flux_lm()).sum();
+    let sum: Rgb = light_of_groups(scene).into_iter().sum();
+    (sum.luminance() > 0.0 && sum.is_finite()).then(|| sum.chromaticity())
+}
+
+/// The light of the luminaires of each group, lm in three channels; surfaces that shine are in the first, and so are all luminaires of a
+/// scene without groups. Whoever dims groups adds them up, each times its factor.
+pub fn light_of_groups(scene: &Scene) -> Vec<Rgb> {
+    let mut light = vec![Rgb::BLACK; scene.groups().len().max(1)];
+    for of in scene.area_luminaires() {
+        light[0] += of.luminance_cd_m2.chromaticity() * of.luminous_flux_lm();
+    }
     let flux_lm = |of: &Luminaire| match &of.kind {
         LuminaireKind::Point { intensity, .. } => intensity.luminous_flux_lm(),
         LuminaireKind::Directional { illuminance_lx, .. } => illuminance_lx * mean_shadow_m2(scene),
     };
-    let others: Rgb = scene.luminaires().iter().map(|of| of.colour * flux_lm(of)).sum();
-    let sum = of_surfaces + others;
-    (sum.luminance() > 0.0 && sum.is_finite()).then(|| sum.chromaticity())
+    for of in scene.luminaires() {
+        light[of.group as usize] += of.colour * flux_lm(of);
+    }
+    light
 }
 
 /// The mean area of the shadow of the box around a scene: a quarter of its surface (Cauchy 1841).

@@ -40,12 +40,6 @@ impl WhiteAdaptation {
     }
 }
 
-/// The rows of the matrix that [`WhiteAdaptation::Nearly`] applies to linear Rec. 709, for whoever else shows a map; `None` if the
-/// colour is no light.
-pub fn nearly_white(light: Rgb) -> Option<[[f64; 3]; 3]> {
-    to_white(light, degree_of_eyes(light)).map(|matrix| matrix.0)
-}
-
 /// The adaptation to a white, of which `degree` takes place: 1 shows it white, 0 as it is.
 fn to_white(white: Rgb, degree: f64) -> Option<Matrix3> {
     let is_light = white.min_channel() >= 0.0 && white.is_finite() && !white.is_black();
@@ -83,7 +77,8 @@ mod tests {
 
     #[test]
     fn eyes_leave_a_rest_of_warm_light_and_all_of_coloured_light() {
-        let shown = |light: Rgb| Rgb(Matrix3(nearly_white(light).unwrap()).apply(light.0));
+        let shown =
+            |light: Rgb| Rgb(to_white(light, degree_of_eyes(light)).unwrap().apply(light.0));
         let warmth = |colour: Rgb| colour.0[0] / colour.0[2];
         let warm = shown(WARM);
         assert!(warmth(warm) > 1.05 && warmth(warm) < 1.6, "{warm:?}");

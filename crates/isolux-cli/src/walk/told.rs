@@ -3,10 +3,11 @@
 use crate::{map_facts, render};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
+use isolux::units::Rgb;
 use isolux_formats::walk::{ColourMap, Steps, Told, Tone};
 use isolux_view::{
-    ColourMap as Map, Development, Exposure, Scale, Spaced, ToneOperator, colour_of_light,
-    nearly_white, round_limits, tone_table,
+    ColourMap as Map, Development, Exposure, Scale, Spaced, ToneOperator, light_of_groups,
+    round_limits, tone_table,
 };
 
 /// The layer of a map whose light is not known by groups.
@@ -26,7 +27,7 @@ pub(crate) fn told(
         file: file.to_owned(),
         about: about(map),
         white_cd_m2: white_cd_m2((scene, map), camera),
-        white_balance: white_balance(scene),
+        light_lm: light_lm(scene, &layers),
         tones: tones(),
         colour_maps: colour_maps(),
         scale_lx: limits_lx(map),
@@ -48,10 +49,16 @@ fn white_cd_m2((scene, map): (&Scene, &IlluminationMap), camera: &Camera) -> f64
     view.and_then(|view| Exposure::Automatic.white_cd_m2(&view).ok()).unwrap_or(1.0)
 }
 
-/// The adaptation to the light of the scene; none where it has no light.
-fn white_balance(scene: &Scene) -> [[f64; 3]; 3] {
-    let unchanged = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    colour_of_light(scene).and_then(nearly_white).unwrap_or(unchanged)
+/// The light of the luminaires of each layer, lm: of the group of its name, or of all of them where there is one layer alone.
+fn light_lm(scene: &Scene, layers: &[String]) -> Vec<Rgb> {
+    let of_groups = light_of_groups(scene);
+    let all = || of_groups.iter().copied().sum();
+    let of_layer = |name: &String| match scene.groups().iter().position(|group| group == name) {
+        Some(group) => of_groups.get(group).copied().unwrap_or(Rgb::BLACK),
+        None if layers.len() == 1 => all(),
+        None => Rgb::BLACK,
+    };
+    layers.iter().map(of_layer).collect()
 }
 
 /// The tone operators of `render`, its usual one first.
