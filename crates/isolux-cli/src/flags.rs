@@ -49,7 +49,7 @@ pub(crate) enum Command {
     /// Compute the light of a scene and write it for an engine: solve and export in one
     Bake(BakeFlags),
     /// Draw views from a map, or of a scene
-    Render(RenderFlags),
+    Render(Box<RenderFlags>),
     /// Walk through a map in a browser
     View(ViewFlags),
     /// Write a map for other software: .wrl, .x3d, .vtu, .ply, .csv; lightmaps as .glb, .exr, .ktx2; .html to walk through in a browser

@@ -1,6 +1,6 @@
 //! Where the light of views comes from: a map, a scene that is solved first, or a cache of samples.
 
-use super::{bare, view};
+use super::looking::{bare, view};
 use crate::appearance::ExposureChoice;
 use crate::cached_view::{self, CacheUse};
 use crate::failure::{Failure, Outcome};

@@ -1,6 +1,7 @@
 //! `isolux render`: views from a map, or of a scene.
 
 mod light;
+mod looking;
 mod outputs;
 mod report;
 
@@ -9,17 +10,12 @@ use crate::exposed;
 use crate::failure::{Failure, Outcome};
 use crate::flags::RenderFlags;
 use crate::look::Look;
-use crate::meter::Meter;
 use crate::output::OutputPath;
 use crate::viewpoint::NamedView;
-use isolux::map::IlluminationMap;
-use isolux::scene::Scene;
 use isolux_formats::luminance::{Luminances, encode_exr, encode_radiance};
-use isolux_view::{
-    Gathered, LuminanceImage, Picture, Size, SurfacePoint, TraceSettings, View, ViewProgress,
-    trace, trace_map,
-};
+use isolux_view::{LuminanceImage, Picture};
 use light::{Lit, Seen};
+pub(crate) use looking::{bare, view};
 use outputs::{Kind, Output, Wanted};
 use report::{Indirect, Report, ViewReport};
 
@@ -101,38 +97,6 @@ fn fitted((width, height): (u32, u32), aspect: Option<f64>) -> (u32, u32) {
         true => (((aspect * down).round() as u32).max(1), height),
         false => (width, ((across / aspect).round() as u32).max(1)),
     }
-}
-
-/// Walls of one side only are looked through from outside.
-const SETTINGS: TraceSettings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
-
-/// Traces a view over a map: direct light evaluated afresh, indirect light gathered where the map is not to be trusted.
-pub(crate) fn view(
-    scene: &Scene,
-    map: &IlluminationMap,
-    view: impl Into<View>,
-    (width, height): (u32, u32),
-) -> Result<(LuminanceImage, Gathered), Failure> {
-    let size = Size::new(width, height).map_err(Failure::bad_input)?;
-    let mut gathering = Meter::new("indirect light of the view", None);
-    let mut looking = Meter::new("view", None);
-    let watch = &mut |progress| match progress {
-        ViewProgress::Gathering(share) => gathering.tell(share),
-        ViewProgress::Looking(share) => looking.tell(share),
-    };
-    trace_map((scene, map), view, size, (&SETTINGS, watch)).map_err(Failure::bad_input)
-}
-
-/// The same of the bare map, all light interpolated.
-pub(crate) fn bare(
-    scene: &Scene,
-    map: &IlluminationMap,
-    view: impl Into<View>,
-    (width, height): (u32, u32),
-) -> Result<LuminanceImage, Failure> {
-    let size = Size::new(width, height).map_err(Failure::bad_input)?;
-    let read = |at: SurfacePoint| map.interpolate(at.triangle, at.back, at.u, at.v);
-    trace(scene, view, size, &SETTINGS, &read).map_err(Failure::bad_input)
 }
 
 /// Writes a picture.

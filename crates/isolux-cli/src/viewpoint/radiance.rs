@@ -111,10 +111,11 @@ fn parsed(text: &str) -> Result<Options, String> {
                     return Err(format!("view: {word} can only be 0; leave it out"));
                 }
             }
-            _ => match word.strip_prefix("-vt") {
-                Some(of) => view.kind = kind(of).map_err(|problem| format!("view: {problem}"))?,
-                None => {}
-            },
+            _ => {
+                if let Some(of) = word.strip_prefix("-vt") {
+                    view.kind = kind(of).map_err(|problem| format!("view: {problem}"))?;
+                }
+            }
         }
     }
     Ok(view)

@@ -22,10 +22,12 @@ pub fn encode(picture: &Luminances<'_>) -> Result<Vec<u8>, LuminanceError> {
         blocks: Blocks::ScanLines,
         line_order: LineOrder::Increasing,
     };
-    let mut attributes = LayerAttributes::default();
-    attributes.comments = Text::new_or_none(MEANING);
-    attributes.software_name = Text::new_or_none(concat!("isolux ", env!("CARGO_PKG_VERSION")));
-    attributes.white_luminance = Some(1.0);
+    let attributes = LayerAttributes {
+        comments: Text::new_or_none(MEANING),
+        software_name: Text::new_or_none(concat!("isolux ", env!("CARGO_PKG_VERSION"))),
+        white_luminance: Some(1.0),
+        ..LayerAttributes::default()
+    };
     let size = (picture.width as usize, picture.height as usize);
     let layer =
         Layer::new(size, attributes, encoding, AnyChannels::sort(channels.into_iter().collect()));
