@@ -10,7 +10,7 @@ use crate::progress::Reporter;
 use crate::solving::Run;
 use crate::summary::{self, Lit};
 use crate::walk::{self, Opened};
-use crate::{explain, map_file, render, report, repository, solving, source, viewpoint};
+use crate::{explain, map_file, render, report, repository, solving, source, traced, viewpoint};
 use isolux::engine::SolveRequest;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let solved = solving::solve(&scene, &run, None, (&mut Reporter::new(None), None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;
     let camera = viewpoint::camera(&scene, None).map_err(Failure::bad_input)?;
-    let (view, _) = render::view(&scene, &solved.solution.map, &camera, PICTURE)?;
+    let (view, _) = traced::view(&scene, &solved.solution.map, &camera, PICTURE)?;
     let look = Look::usual(&scene);
     render::write(&files.picture, &look.picture(&view)?)?;
     render::write(&files.false_colour, &look.chart(&view)?)?;

@@ -57,6 +57,7 @@ mod solve;
 mod solving;
 mod source;
 mod summary;
+mod traced;
 mod validate;
 mod vertex_export;
 mod viewpoint;

@@ -1,6 +1,5 @@
 //! Where the light of views comes from: a map, a scene that is solved first, or a cache of samples.
 
-use super::looking::{bare, view};
 use crate::appearance::ExposureChoice;
 use crate::cached_view::{self, CacheUse};
 use crate::failure::{Failure, Outcome};
@@ -8,6 +7,7 @@ use crate::flags::RenderFlags;
 use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use crate::quantity::show_share;
+use crate::traced::{bare, view};
 use crate::viewpoint::{self, NamedView};
 use crate::{map_file, solving, source, walk};
 use isolux::elements::carries_map;

@@ -1,7 +1,6 @@
 //! `isolux render`: views from a map, or of a scene.
 
 mod light;
-mod looking;
 mod outputs;
 mod report;
 
@@ -15,7 +14,6 @@ use crate::viewpoint::NamedView;
 use isolux_formats::luminance::{Luminances, encode_exr, encode_radiance};
 use isolux_view::{LuminanceImage, Picture};
 use light::{Lit, Seen};
-pub(crate) use looking::{bare, view};
 use outputs::{Kind, Output, Wanted};
 use report::{Indirect, Report, ViewReport};
 

@@ -1,6 +1,6 @@
 //! What the page is told beside the scene: how `render` would show it.
 
-use crate::{map_facts, render};
+use crate::{map_facts, traced};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux::units::Rgb;
@@ -45,7 +45,7 @@ fn about(map: &IlluminationMap) -> Vec<(String, String)> {
 
 /// The luminance that automatic exposure shows as 1, by a small picture of the bare map.
 fn white_cd_m2((scene, map): (&Scene, &IlluminationMap), camera: &Camera) -> f64 {
-    let view = render::bare(scene, map, camera, GLIMPSE).ok();
+    let view = traced::bare(scene, map, camera, GLIMPSE).ok();
     view.and_then(|view| Exposure::Automatic.white_cd_m2(&view).ok()).unwrap_or(1.0)
 }
 
