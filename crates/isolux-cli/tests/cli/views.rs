@@ -222,7 +222,7 @@ fn rooms_look_lit_and_white_walls_neutral() {
         [0, 1, 2].map(|k| pixels.iter().map(|p| f64::from(p[k])).sum::<f64>() / pixels.len() as f64)
     };
     let [r, g, b] = mean(&[]);
-    // The log-average is shown at 0.45, which is code 178.
+    // The log-average is shown at 0.45, which is code 179.
     assert!((140.0..230.0).contains(&g), "{g}");
     assert!(r > b && r - b < 50.0, "white by and large, and a little warm: {r} {b}");
     let [r, _, b] = mean(&["--white", "none"]);

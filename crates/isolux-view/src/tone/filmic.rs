@@ -1,8 +1,8 @@
 //! A straight line with a shoulder: the look of a well exposed photograph of a room.
 
 /// Exposure before the curve: 1.3 stops above middle grey. Photographers expose rooms so that white walls are white in the picture and
-/// not grey. In pictures of rooms walls have 1.3 to 1.7 times the log-average (an office, a meeting room, a hall, three rooms of
-/// `builtin:truth`), and are shown with codes of sRGB from 199 to 212.
+/// not grey. Walls of an office with a reflectance of 0.6 have 1.5 to 2 times the log-average, and are shown with codes of sRGB from 209
+/// to 221.
 const BIAS: f64 = 2.5;
 /// Up to here what is shown is proportional to luminance.
 const KNEE: f64 = 0.5;
