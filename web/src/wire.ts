@@ -114,6 +114,8 @@ export interface SceneHeader {
   about: [string, string][];
   /** The luminance that `render` would show as 1 from the first camera, cd/m2: what to start with. */
   white_cd_m2: number;
+  /** The light of the luminaires of each layer, lm in three channels: eyes adapt to the colour of their sum. */
+  light_lm: Vec3[];
   tones: ToneTable[];
   /** Colour maps by name: 256 x 3 codes of sRGB (u8). */
   colour_maps: { name: string; codes: Section }[];

@@ -96,7 +96,17 @@ fn room(root: &Path, folder: &Path) -> Result<Room, String> {
     let number = |name: &str| said[name].as_f64().ok_or(format!("export does not say `{name}`"));
     let picture = at("room.png");
     let exposure = format!("{PICTURE_WHITE_CD_M2}cd/m2");
-    let look = ["--camera", "front", "--size", PICTURE_SIZE, "--interpolated", "--tone", "linear"];
+    let look = [
+        "--camera",
+        "front",
+        "--size",
+        PICTURE_SIZE,
+        "--interpolated",
+        "--tone",
+        "linear",
+        "--white",
+        "none",
+    ];
     let into = ["render", &text(&map), "-o", &text(&picture), "--exposure", &exposure];
     isolux(root, &[&into[..], &look].concat())?;
     Ok(Room {

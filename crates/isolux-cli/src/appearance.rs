@@ -15,6 +15,15 @@ pub(crate) enum ExposureChoice {
     Map,
 }
 
+/// The light that is to look white.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum WhiteChoice {
+    /// The light of the luminaires, nearly.
+    Light,
+    /// Whatever the scene is.
+    Of(WhiteAdaptation),
+}
+
 /// The display that a picture is for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum ProfileChoice {
@@ -49,16 +58,19 @@ pub(crate) fn exposure(text: &str) -> Result<ExposureChoice, String> {
     })
 }
 
-/// The light that is to look white, as written: `2700K`, `scene`.
-pub(crate) fn white(text: &str) -> Result<WhiteAdaptation, String> {
+/// The light that is to look white, as written: `auto`, `none`, `2700K`, `scene`.
+pub(crate) fn white(text: &str) -> Result<WhiteChoice, String> {
     let text = text.trim();
-    if text == "scene" {
-        return Ok(WhiteAdaptation::Scene);
+    match text {
+        "auto" => return Ok(WhiteChoice::Light),
+        "none" => return Ok(WhiteChoice::Of(WhiteAdaptation::None)),
+        "scene" => return Ok(WhiteChoice::Of(WhiteAdaptation::Scene)),
+        _ => {}
     }
     let kelvin = text.strip_suffix(['K', 'k']).and_then(number);
     let light = kelvin.and_then(light_of_temperature);
-    let remedy = "write a colour temperature from 1000K to 25000K as 2700K, or scene";
-    light.map(WhiteAdaptation::To).ok_or_else(|| remedy.into())
+    let remedy = "write auto, none, a colour temperature from 1000K to 25000K as 2700K, or scene";
+    light.map(|light| WhiteChoice::Of(WhiteAdaptation::To(light))).ok_or_else(|| remedy.into())
 }
 
 /// The display of a picture, as written: `srgb`, `display-p3`, the path of a file.
@@ -122,8 +134,10 @@ mod tests {
 
     #[test]
     fn whites() {
-        assert_eq!(white("scene"), Ok(WhiteAdaptation::Scene));
-        let warm = light_of_temperature(2700.0).map(WhiteAdaptation::To);
+        assert_eq!(white("auto"), Ok(WhiteChoice::Light));
+        assert_eq!(white("none"), Ok(WhiteChoice::Of(WhiteAdaptation::None)));
+        assert_eq!(white("scene"), Ok(WhiteChoice::Of(WhiteAdaptation::Scene)));
+        let warm = light_of_temperature(2700.0).map(WhiteAdaptation::To).map(WhiteChoice::Of);
         assert_eq!((white("2700K").ok(), white(" 2700 k").ok()), (warm, warm));
         for text in ["", "K", "2700", "999K", "NaNK", "infK", "-2700K", "white"] {
             assert!(white(text).is_err(), "{text}");

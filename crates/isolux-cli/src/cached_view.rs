@@ -9,9 +9,9 @@ use crate::quantity::{show_count, show_seconds};
 use isolux::engine::{
     CacheReader, CacheSettings, CachedPlace, IrradianceCache, SampleKind, Served,
 };
-use isolux::scene::{Camera, Scene};
+use isolux::scene::Scene;
 use isolux_formats::counted;
-use isolux_view::{LuminanceImage, Size, SurfacePoint, TraceSettings, trace, trace_watched};
+use isolux_view::{LuminanceImage, Size, SurfacePoint, TraceSettings, View, trace, trace_watched};
 use serde::Serialize;
 use std::path::Path;
 use std::sync::Mutex;
@@ -54,11 +54,12 @@ impl CacheUse {
 /// until then are kept, and it is said.
 pub(crate) fn look(
     scene: &Scene,
-    camera: &Camera,
+    view: View,
     (width, height): (u32, u32),
     (path, accuracy): (&Path, f64),
 ) -> Result<Option<(LuminanceImage, CacheUse)>, Failure> {
     let interrupt = Interrupt::install()?;
+    interrupt.has_more_to_keep();
     let size = Size::new(width, height).map_err(Failure::bad_input)?;
     let started = Instant::now();
     let (mut file, cache) = cache_samples::open(path, scene, cache_samples::MAX_CACHE_BYTES)?;
@@ -73,12 +74,13 @@ pub(crate) fn look(
     }
     let settings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
     let asked = Mutex::new(Vec::new());
-    // A first look in the dark finds what is in view; it costs little, as no light is evaluated.
+    // A first look in the dark finds what is in view; it costs little, as no light is evaluated, that of luminaires in gloss neither.
+    let in_the_dark = TraceSettings { highlights: false, ..settings };
     let ask = |at: SurfacePoint| {
         asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(place(at));
         None
     };
-    trace(scene, camera, size, &settings, &ask).map_err(Failure::bad_input)?;
+    trace(scene, view, size, &in_the_dark, &ask).map_err(Failure::bad_input)?;
     let asked = asked.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     let served = reader.serve_until(&asked, &|| interrupt.is_requested());
     cache_samples::keep(&mut file, &served.made);
@@ -91,7 +93,7 @@ pub(crate) fn look(
     let mut meter = Meter::new("view", None);
     let read = |at: SurfacePoint| reader.glance(&place(at), 0);
     let watch = &mut |share| meter.tell(share);
-    let view = trace_watched(scene, camera, size, &settings, (&read, watch));
+    let view = trace_watched(scene, view, size, &settings, (&read, watch));
     let view = view.map_err(Failure::bad_input)?;
     let count = |cache: &IrradianceCache| cache.samples.len();
     let found = CacheUse {

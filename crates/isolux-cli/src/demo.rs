@@ -10,9 +10,8 @@ use crate::progress::Reporter;
 use crate::solving::Run;
 use crate::summary::{self, Lit};
 use crate::walk::{self, Opened};
-use crate::{explain, map_file, render, report, repository, solving, source, viewpoint};
+use crate::{explain, map_file, render, report, repository, solving, source, traced, viewpoint};
 use isolux::engine::SolveRequest;
-use isolux_view::{Contours, FalseColour};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -34,12 +33,10 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let solved = solving::solve(&scene, &run, None, (&mut Reporter::new(None), None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;
     let camera = viewpoint::camera(&scene, None).map_err(Failure::bad_input)?;
-    let (view, _) = render::view(&scene, &solved.solution.map, &camera, PICTURE)?;
-    let contours = Some(Contours::AtTicks);
-    let chart = Look::Chart(FalseColour { contours, ..FalseColour::default() });
-    let picture = Look::Picture(Box::default());
-    render::write(&files.picture, &picture.show(&view)?)?;
-    render::write(&files.false_colour, &chart.show(&view)?)?;
+    let (view, _) = traced::view(&scene, &solved.solution.map, &camera, PICTURE)?;
+    let look = Look::usual(&scene);
+    render::write(&files.picture, &look.picture(&view)?)?;
+    render::write(&files.false_colour, &look.chart(&view)?)?;
     let walk = walk::file(&[Opened::read(files.map.path())?], FINER)?;
     files.walk.write(walk.as_bytes())?;
     let results = Results {

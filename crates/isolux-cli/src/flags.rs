@@ -1,12 +1,13 @@
 //! Arguments as written.
 
+mod render;
 mod shown;
 mod solve;
 
-pub(crate) use shown::{
-    ExportFlags, EyeFlags, LayoutFlags, LayoutName, LookFlags, RenderFlags, ServerFlags,
-    TargetName, ToneName, ViewFlags,
+pub(crate) use render::{
+    EyeFlags, LookFlags, RadianceFlags, RenderFlags, ToneName, with_two_dashes,
 };
+pub(crate) use shown::{ExportFlags, LayoutFlags, LayoutName, ServerFlags, TargetName, ViewFlags};
 pub(crate) use solve::{BakeFlags, MethodName, ProgressStyle, Quality, RadiosityFlags, SolveFlags};
 
 use solve::SCENE_HELP;
@@ -47,8 +48,8 @@ pub(crate) enum Command {
     Grid(GridFlags),
     /// Compute the light of a scene and write it for an engine: solve and export in one
     Bake(BakeFlags),
-    /// Draw a view from a map
-    Render(RenderFlags),
+    /// Draw views from a map, or of a scene
+    Render(Box<RenderFlags>),
     /// Walk through a map in a browser
     View(ViewFlags),
     /// Write a map for other software: .wrl, .x3d, .vtu, .ply, .csv; lightmaps as .glb, .exr, .ktx2; .html to walk through in a browser

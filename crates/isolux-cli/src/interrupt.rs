@@ -43,6 +43,11 @@ impl Interrupt {
         self.is_requested.load(Ordering::Relaxed)
     }
 
+    /// From now on the first signal asks for an end again: something is being made that can be kept.
+    pub(crate) fn has_more_to_keep(&self) {
+        self.ends_at_once.store(false, Ordering::Relaxed);
+    }
+
     /// From now on the next signal ends at once: all that could be kept is.
     pub(crate) fn has_nothing_more_to_keep(&self) {
         self.ends_at_once.store(true, Ordering::Relaxed);

@@ -1,6 +1,6 @@
 //! From the flags of a picture to a picture.
 
-use crate::appearance::{ExposureChoice, ProfileChoice};
+use crate::appearance::{ExposureChoice, ProfileChoice, WhiteChoice};
 use crate::failure::Failure;
 use crate::flags::{LookFlags, ToneName};
 use isolux::map::IlluminationMap;
@@ -9,64 +9,89 @@ use isolux_formats::Problem;
 use isolux_formats::map_glb::Preview;
 use isolux_view::{
     Contours, Development, Exposure, FalseColour, LuminanceImage, MAX_ICC_BYTES, MonitorProfile,
-    Picture, Scale, ToneOperator, develop, false_colour,
+    Picture, Scale, ToneOperator, WhiteAdaptation, colour_of_light, develop, false_colour,
 };
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// What a view is shown as.
-pub(crate) enum Look {
-    Chart(FalseColour),
-    Picture(Box<Development>),
+/// How views are shown.
+pub(crate) struct Look {
+    picture: Box<Development>,
+    chart: FalseColour,
+    exposure: ExposureChoice,
+    white: WhiteChoice,
 }
 
 impl Look {
     /// The look that is asked for, and what is wrong with it before minutes are spent on a view.
     pub(crate) fn of(flags: &LookFlags) -> Result<Self, Failure> {
-        if flags.false_colour {
-            return chart(flags).map(Self::Chart);
-        }
         let default = Development::default();
-        Ok(Self::Picture(Box::new(Development {
-            white: flags.white.unwrap_or_default(),
-            exposure: match flags.exposure {
-                ExposureChoice::Of(exposure) => exposure,
-                ExposureChoice::Map => Exposure::Automatic,
-            },
+        let picture = Development {
             tone: tone(flags)?,
             display_white_cd_m2: flags.display_white.unwrap_or(default.display_white_cd_m2),
             profile: profile(&flags.profile)?,
-        })))
+            ..default
+        };
+        let (exposure, white) = (flags.exposure, flags.white);
+        Ok(Self { picture: Box::new(picture), chart: chart(flags)?, exposure, white })
     }
 
-    /// Exposes pictures as viewers show the map itself, so that those of all cameras are alike; Reinhard's operator has its white there, too.
-    pub(crate) fn exposed_by(mut self, scene: &Scene, map: &IlluminationMap) -> Self {
-        if let Self::Picture(how) = &mut self {
-            let preview = Preview::automatic(scene, map);
-            how.exposure = Exposure::WhiteCdM2(1.0 / preview.exposure_m2_cd);
-            if let ToneOperator::Reinhard { white } = &mut how.tone {
-                *white = preview.exposure_m2_cd * preview.white_cd_m2;
+    /// The usual look, with contour lines on charts.
+    pub(crate) fn usual(scene: &Scene) -> Self {
+        let chart = FalseColour { contours: Some(Contours::AtTicks), ..FalseColour::default() };
+        let exposure = ExposureChoice::Of(Exposure::Automatic);
+        let look = Self { picture: Box::default(), chart, exposure, white: WhiteChoice::Light };
+        look.of_scene(scene, None)
+    }
+
+    /// The same for views of a scene. `--exposure map` exposes them as viewers show the map itself, so that those of all cameras are
+    /// alike; Reinhard's operator has its white there, too.
+    pub(crate) fn of_scene(mut self, scene: &Scene, map: Option<&IlluminationMap>) -> Self {
+        let how = &mut self.picture;
+        how.white = match self.white {
+            WhiteChoice::Light => {
+                colour_of_light(scene).map_or(WhiteAdaptation::None, WhiteAdaptation::Nearly)
             }
-        }
+            WhiteChoice::Of(white) => white,
+        };
+        how.exposure = match (self.exposure, map) {
+            (ExposureChoice::Of(exposure), _) => exposure,
+            (ExposureChoice::Map, None) => Exposure::Automatic,
+            (ExposureChoice::Map, Some(map)) => {
+                let preview = Preview::automatic(scene, map);
+                match &mut how.tone {
+                    ToneOperator::Filmic => Preview::adaptation_cd_m2(scene, map)
+                        .map_or(Exposure::Automatic, Exposure::GreyCdM2),
+                    ToneOperator::Reinhard { white } => {
+                        *white = preview.exposure_m2_cd * preview.white_cd_m2;
+                        Exposure::WhiteCdM2(1.0 / preview.exposure_m2_cd)
+                    }
+                    _ => Exposure::WhiteCdM2(1.0 / preview.exposure_m2_cd),
+                }
+            }
+        };
         self
     }
 
-    /// Makes a view a picture.
-    pub(crate) fn show(&self, view: &LuminanceImage) -> Result<Picture, Failure> {
-        let picture = match self {
-            Self::Chart(how) => false_colour(view, how),
-            Self::Picture(how) => develop(view, how),
-        };
-        picture.map_err(Failure::bad_input)
+    /// How pictures are developed.
+    pub(crate) fn development(&self) -> &Development {
+        &self.picture
     }
 
-    /// The display that the picture is for.
-    pub(crate) fn profile(&self) -> &str {
-        match self {
-            Self::Chart(_) => "sRGB",
-            Self::Picture(how) => how.profile.name(),
-        }
+    /// The picture of a view.
+    pub(crate) fn picture(&self, view: &LuminanceImage) -> Result<Picture, Failure> {
+        develop(view, &self.picture).map_err(Failure::bad_input)
+    }
+
+    /// The chart of a view.
+    pub(crate) fn chart(&self, view: &LuminanceImage) -> Result<Picture, Failure> {
+        false_colour(view, &self.chart).map_err(Failure::bad_input)
+    }
+
+    /// The display that pictures are for; charts are for any.
+    pub(crate) fn profile(&self, is_picture: bool) -> &str {
+        if is_picture { self.picture.profile.name() } else { "sRGB" }
     }
 }
 
@@ -102,7 +127,8 @@ fn tone(flags: &LookFlags) -> Result<ToneOperator, Failure> {
             brightness: flags.brightness.unwrap_or(0.0),
             contrast: flags.contrast.unwrap_or(1.0),
         },
-        ToneName::Reinhard => ToneOperator::default(),
+        ToneName::Filmic => ToneOperator::Filmic,
+        ToneName::Reinhard => ToneOperator::REINHARD,
         ToneName::Hable => ToneOperator::Hable,
         ToneName::Ward => ToneOperator::Ward,
         ToneName::TumblinRushmeier => ToneOperator::TumblinRushmeier,

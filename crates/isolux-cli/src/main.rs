@@ -57,6 +57,7 @@ mod solve;
 mod solving;
 mod source;
 mod summary;
+mod traced;
 mod validate;
 mod vertex_export;
 mod viewpoint;
@@ -69,9 +70,7 @@ use flags::{Command, Flags};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    // Radiance writes the flag with one dash.
-    let words = std::env::args_os().map(|word| if word == "-vf" { "--vf".into() } else { word });
-    let flags = Flags::parse_from(words);
+    let flags = Flags::parse_from(std::env::args_os().map(flags::with_two_dashes));
     let end = run(&flags);
     if let Err(failure) = &end {
         failure.lines().iter().for_each(|(kind, line)| notes::note(*kind, line));

@@ -167,6 +167,12 @@ pub(crate) fn angle_deg(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "is no angle between 0 and 180 degrees; write 60".to_owned())
 }
 
+/// One coordinate, or another number, of a view of Radiance.
+pub(crate) fn coordinate(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|value| value.is_finite());
+    number.ok_or_else(|| "is no number; write 1.6".to_owned())
+}
+
 /// The size of a picture as `1280x720`.
 pub(crate) fn pixels(text: &str) -> Result<(u32, u32), String> {
     let side = |side: &str| {

@@ -16,6 +16,7 @@ pub mod lightmap;
 mod lines;
 pub mod lint;
 mod load;
+pub mod luminance;
 pub mod map_glb;
 pub mod mitsuba;
 pub mod obj;

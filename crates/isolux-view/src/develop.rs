@@ -26,7 +26,7 @@ pub struct Development {
 }
 
 impl Default for Development {
-    /// Colours as they are, exposed by their log-average, by Reinhard's operator, for an sRGB display of 100 cd/m2.
+    /// Colours as they are, exposed by their log-average, by the filmic operator, for an sRGB display of 100 cd/m2.
     fn default() -> Self {
         Self {
             white: WhiteAdaptation::default(),

@@ -1,7 +1,7 @@
 //! Which luminance is shown how bright.
 
 use crate::error::ViewError;
-use crate::image::LuminanceImage;
+use crate::image::{LuminanceImage, Seen, Sight};
 
 /// The share of light that a middle grey reflects, and that the mean of a picture is shown as.
 pub(crate) const MIDDLE_GREY: f64 = 0.18;
@@ -14,7 +14,8 @@ const SATURATION_CD_M2: f64 = 1.2;
 pub enum Exposure {
     /// The log-average luminance of all lit pixels is shown as middle grey, 0.18 (Reinhard, Stark,
     /// Shirley, Ferwerda 2002, "Photographic tone reproduction for digital images", eq. 1 and 2).
-    /// Black and unknown pixels are left out, where the paper adds a small number to them.
+    /// Black and unknown pixels are left out, where the paper adds a small number to them, and so are luminaires: eyes in a room
+    /// are adapted to its surfaces. A view of nothing but luminaires counts them.
     #[default]
     Automatic,
     /// This share of the lit pixels, 0 to 1, is shown no brighter than 1.
@@ -50,22 +51,31 @@ impl Exposure {
     }
 }
 
-fn lit_luminances(image: &LuminanceImage) -> impl Iterator<Item = f64> {
-    let luminance = |pixel| image.luminance_cd_m2(pixel).luminance();
-    (0..image.size().pixels()).map(luminance).filter(|l| *l > 0.0 && l.is_finite())
+/// Luminances, and whether a luminaire is seen in the pixel.
+fn lit_pixels(image: &LuminanceImage) -> impl Iterator<Item = (f64, bool)> {
+    let is_luminaire = |seen: &Seen| seen.sight == Sight::Emitter;
+    let pixel = move |pixel| {
+        let luminance = image.luminance_cd_m2(pixel).luminance();
+        (luminance, image.samples(pixel).iter().any(is_luminaire))
+    };
+    (0..image.size().pixels()).map(pixel).filter(|(l, _)| *l > 0.0 && l.is_finite())
 }
 
 fn log_average(image: &LuminanceImage) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for luminance in lit_luminances(image) {
-        sum += libm::log(luminance);
-        count += 1.0;
+    let (mut sum, mut count) = ([0.0; 2], [0.0; 2]);
+    for (luminance, is_luminaire) in lit_pixels(image) {
+        sum[usize::from(is_luminaire)] += libm::log(luminance);
+        count[usize::from(is_luminaire)] += 1.0;
     }
-    if count > 0.0 { libm::exp(sum / count) } else { MIDDLE_GREY }
+    match count {
+        [0.0, 0.0] => MIDDLE_GREY,
+        [0.0, luminaires] => libm::exp(sum[1] / luminaires),
+        [surfaces, _] => libm::exp(sum[0] / surfaces),
+    }
 }
 
 fn percentile(image: &LuminanceImage, share: f64) -> f64 {
-    let mut lit: Vec<f64> = lit_luminances(image).collect();
+    let mut lit: Vec<f64> = lit_pixels(image).map(|(luminance, _)| luminance).collect();
     lit.sort_by(f64::total_cmp);
     let index = (share * lit.len().saturating_sub(1) as f64).ceil() as usize;
     lit.get(index).copied().unwrap_or(1.0)

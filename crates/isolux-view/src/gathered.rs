@@ -1,6 +1,7 @@
 //! Views from a map whose indirect light is gathered where the map is not to be trusted, as readings have it: on a net of
 //! pixels, so that few of them take rays.
 
+use crate::camera::View;
 use crate::direct::DirectField;
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
@@ -10,7 +11,7 @@ use isolux::elements::PlaceOnSide;
 use isolux::engine::net::{Filled, Fineness, Net, Wanted};
 use isolux::engine::{Allowance, IndirectReading, MapReader, PictureLight, ShadowRays, Told};
 use isolux::map::{Illuminance, IlluminationMap};
-use isolux::scene::{Camera, Scene};
+use isolux::scene::Scene;
 use isolux::units::Rgb;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -70,12 +71,13 @@ pub enum ViewProgress {
 /// of a pixel nearby shows are interpolated). `watch` is told how far that is.
 pub fn trace_map(
     (scene, map): (&Scene, &IlluminationMap),
-    camera: &Camera,
+    view: impl Into<View>,
     size: Size,
     (settings, watch): (&TraceSettings, &mut dyn FnMut(ViewProgress)),
 ) -> Result<(LuminanceImage, Gathered), ViewError> {
+    let view = view.into();
     let reader = MapReader::new(scene, map);
-    let middles = Middles::of(scene, size, asked(scene, camera, size, settings)?);
+    let middles = Middles::of(scene, size, asked(scene, view, size, settings)?);
     let direct = DirectField::new(&middles, (&reader, map), |share| {
         watch(ViewProgress::Lighting(share));
     });
@@ -100,14 +102,14 @@ pub fn trace_map(
         reader.glance(on_side(&at), (0, CELL_RAYS), known)
     };
     let watch = &mut |share| watch(ViewProgress::Looking(share));
-    let image = trace_watched(scene, camera, size, settings, (&read, watch))?;
+    let image = trace_watched(scene, view, size, settings, (&read, watch))?;
     Ok((image, report))
 }
 
 /// A look in the dark: what is to be seen sharply in the middles of pixels, in their order.
 fn asked(
     scene: &Scene,
-    camera: &Camera,
+    view: View,
     size: Size,
     settings: &TraceSettings,
 ) -> Result<Vec<SurfacePoint>, ViewError> {
@@ -120,7 +122,7 @@ fn asked(
         }
         None
     };
-    trace(scene, camera, size, &middles, &ask)?;
+    trace(scene, view, size, &middles, &ask)?;
     let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
     let key = |at: &SurfacePoint| (at.pixel, at.path);
     all.sort_unstable_by(|a, b| {

@@ -16,6 +16,7 @@ mod exposure;
 mod false_colour;
 mod gathered;
 mod image;
+mod light;
 mod matrix;
 mod middles;
 mod picture;
@@ -29,7 +30,7 @@ mod tone;
 mod trace;
 mod white;
 
-pub use camera::ViewRays;
+pub use camera::{Projection, View, ViewRays};
 pub use develop::{Development, develop};
 pub use difference::differences;
 pub use error::ViewError;
@@ -39,6 +40,7 @@ pub use false_colour::{
 };
 pub use gathered::{Gathered, ViewProgress, trace_map};
 pub use image::{LuminanceImage, Reading, Seen, Sight, Size, Surface};
+pub use light::{colour_of_light, light_of_groups};
 pub use picture::{Picture, UNKNOWN};
 pub use plan::plan;
 pub use polar::PolarDiagram;

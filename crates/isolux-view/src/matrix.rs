@@ -28,6 +28,12 @@ impl Matrix3 {
         Self::of_columns([column(0), column(1), column(2)])
     }
 
+    /// This map by a share, and the identity by the rest.
+    pub(crate) fn mixed_with_identity(&self, share: f64) -> Self {
+        let one = Self::diagonal([1.0 - share; 3]);
+        Self([0, 1, 2].map(|r| [0, 1, 2].map(|c| share * self.0[r][c] + one.0[r][c])))
+    }
+
     /// The inverse; `None` where there is none within the range of floating-point numbers.
     pub(crate) fn inverse(&self) -> Option<Self> {
         let [a, b, c] = self.0;

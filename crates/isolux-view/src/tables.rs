@@ -106,7 +106,8 @@ mod tests {
     fn tables_show_what_operators_show() {
         let operators = [
             ToneOperator::LINEAR,
-            ToneOperator::default(),
+            ToneOperator::Filmic,
+            ToneOperator::REINHARD,
             ToneOperator::Hable,
             ToneOperator::Ward,
             ToneOperator::TumblinRushmeier,

@@ -16,7 +16,7 @@ const SLOWNESS = 0.22;
 export const whiteOfEv = (ev: number): number => SATURATION * 2 ** ev;
 export const evOfWhite = (white: number): number => Math.log2(white / SATURATION);
 
-/** A small picture: luminance in three channels and illuminance (-1: none), rows from the bottom. */
+/** A small picture: luminance in three channels, negative for luminaires, and illuminance (-1: none), rows from the bottom. */
 export interface Sample {
   width: number;
   height: number;
@@ -56,7 +56,7 @@ export class Meter {
     renderer.setClearColor(0, -1);
     renderer.clear();
     camera.layers.disable(LAYER.marks);
-    uniforms.uOutput.value = OUTPUT.luminance;
+    uniforms.uOutput.value = OUTPUT.meter;
     renderer.render(scene, camera);
     camera.layers.mask = mask;
     renderer.setClearColor(clear, alpha);
@@ -94,15 +94,17 @@ async function readLater(renderer: WebGLRenderer, target: WebGLRenderTarget, wid
   }
 }
 
-/** The log-average of lit pixels, or null where there are none. */
+/** The log-average of lit surfaces, or of luminaires where nothing else is seen, or null where nothing is lit. */
 export function logAverage({ values }: Sample): number | null {
-  let [sum, count] = [0, 0];
+  const [surfaces, luminaires] = [{ sum: 0, count: 0 }, { sum: 0, count: 0 }];
   for (let i = 0; i < values.length; i += 4) {
     const y = luminance([values[i]!, values[i + 1]!, values[i + 2]!]);
-    if (!(y > 0) || !Number.isFinite(y)) continue;
-    sum += Math.log(y);
-    count += 1;
+    if (y === 0 || !Number.isFinite(y)) continue;
+    const kind = y > 0 ? surfaces : luminaires;
+    kind.sum += Math.log(Math.abs(y));
+    kind.count += 1;
   }
+  const { sum, count } = surfaces.count > 0 ? surfaces : luminaires;
   return count > 0 ? Math.exp(sum / count) : null;
 }
 

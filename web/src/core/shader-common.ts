@@ -23,6 +23,7 @@ export const DISPLAY = /* glsl */ `
 uniform highp sampler2D uToneRow;
 uniform vec3 uToneAt;     // first column, columns to a doubling, number of columns
 uniform float uWhite;
+uniform mat3 uBalance;     // as eyes adapt to the colour of the light
 uniform bool uToneOnChannels;
 float tone(float exposed) {
   if (!(exposed > 0.0)) return 0.0;
@@ -37,7 +38,7 @@ vec3 srgb(vec3 c) {
   return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));
 }
 vec3 display(vec3 luminance) {
-  vec3 exposed = luminance / uWhite;
+  vec3 exposed = uBalance * luminance / uWhite;
   if (uToneOnChannels) return srgb(vec3(tone(exposed.r), tone(exposed.g), tone(exposed.b)));
   float y = dot(exposed, GREY);
   return y > 0.0 ? srgb(exposed * (tone(y) / y)) : vec3(0.0);

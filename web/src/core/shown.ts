@@ -1,12 +1,13 @@
 // What settings mean for the shaders: tone, colours, limits, lines.
 
 import type { Settings, Legend } from '../contract';
-import type { SceneHeader } from '../wire';
+import type { SceneHeader, Vec3 } from '../wire';
 import type { Container } from './container';
 import type { Model } from './model';
 import { automaticScale, divergingCodes, givenScale, legendOf, type Scale } from './scale';
 import { toneRow } from './tone';
 import { bytes, floats, MODES, type Uniforms } from './uniforms';
+import { whiteBalance } from './white';
 
 const MOST_LINES = 24;
 
@@ -56,7 +57,16 @@ export class Shown {
     this.#lines = settings.contours ? this.illuminanceScale(model, settings).ticks.filter((t) => t > 0).slice(0, MOST_LINES) : [];
     uniforms.uTickCount.value = this.#lines.length;
     this.#lines.forEach((tick, i) => (uniforms.uTicks.value[i] = tick));
+    this.#balance(settings);
     this.setWhite(settings, white);
+  }
+
+  /** White in the light as it is dimmed; of two dimmings side by side, in that of the first. */
+  #balance({ dimming }: Readonly<Settings>): void {
+    const light: Vec3 = [0, 0, 0];
+    this.container.header.light_lm.forEach((of, i) => of.forEach((channel, k) => (light[k]! += channel * (dimming[i] ?? 1))));
+    const [r, g, b] = whiteBalance(light);
+    this.uniforms.uBalance.value.set(...r, ...g, ...b);
   }
 
   /** The row of the tone table for a luminance of white. */

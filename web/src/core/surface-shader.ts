@@ -153,7 +153,7 @@ in vec2 vValue;
 flat in vec4 vDiffuse;
 flat in vec3 vEmission;
 uniform int uMode;        // 0 seen, 1 illuminance, 2 luminance, 3 direct, 4 indirect, 5 error, 6 relative, 7 difference
-uniform int uOutput;      // 0 the display, 1 luminance and illuminance, 2 false colour without marks
+uniform int uOutput;      // 0 the display, 1 luminance and illuminance, 2 false colour without marks, 3 as 1, luminaires below zero
 uniform int uTickCount;   // of isolux lines
 uniform float uTicks[24];
 uniform float uPixels;    // device pixels of a line
@@ -214,8 +214,9 @@ vec3 withLines(vec3 below, float lux, float slope) {
 void main() {
   bool isLit = vDiffuse.a > 0.5 && vTotal.a > 1e-3;
   float lux = isLit ? dot(vTotal.rgb, GREY) / vTotal.a : -1.0;
-  if (uOutput == 1) {
-    colour = vec4(luminance(), lux);
+  if (uOutput == 1 || uOutput == 3) {
+    bool isLuminaire = uOutput == 3 && dot(vEmission, GREY) > 0.0;
+    colour = vec4(isLuminaire ? -luminance() : luminance(), lux);
     return;
   }
   vec3 shown;
@@ -249,16 +250,16 @@ void main() {
   float r = f0 + (1.0 - f0) * power5(1.0 - clamp(-dot(view, n), 0.0, 1.0));
   // All inner reflections of a pane summed.
   vec3 t = vGlass.rgb, all = (1.0 - r) * (1.0 - r) / (1.0 - r * r * t * t);
-  bool isSeen = uOutput == 1 || uMode == 0;
+  bool isLuminance = uOutput == 1 || uOutput == 3, isSeen = isLuminance || uMode == 0;
 #if PASS == 0
   vec3 through = t * all;
   if (!isSeen) colour = vec4(1.0);
   // Codes of the display are about the power 1 / 2.2 of light.
-  else colour = vec4(uOutput == 1 ? through : pow(through, vec3(1.0 / 2.2)), 1.0);
+  else colour = vec4(isLuminance ? through : pow(through, vec3(1.0 / 2.2)), 1.0);
 #else
   vec3 luminance = (r + r * t * t * all) * surroundings(vPlace, reflect(view, n), 0.0);
   if (!isSeen) colour = vec4(vec3(0.03), 1.0);
-  else colour = vec4(uOutput == 1 ? luminance : display(luminance), 1.0);
+  else colour = vec4(isLuminance ? luminance : display(luminance), 1.0);
 #endif
 }
 `;

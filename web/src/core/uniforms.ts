@@ -1,11 +1,12 @@
 // What all shaders of a viewer know in common.
 
-import { DataTexture, FloatType, NearestFilter, RedFormat, RGBAFormat, Vector2, Vector3, type IUniform, type Texture } from 'three';
+import { DataTexture, FloatType, Matrix3, NearestFilter, RedFormat, RGBAFormat, Vector2, Vector3, type IUniform, type Texture } from 'three';
 import type { Mode } from '../contract';
 
 export const MODES: readonly Mode[] = ['seen', 'illuminance', 'luminance', 'direct', 'indirect', 'error', 'relative', 'difference'];
 
-export const OUTPUT = { display: 0, luminance: 1, falseColour: 2 } as const;
+/** What surfaces are drawn as. `meter` is luminance, less than nothing where a luminaire is seen. */
+export const OUTPUT = { display: 0, luminance: 1, falseColour: 2, meter: 3 } as const;
 
 export type Uniforms = ReturnType<typeof makeUniforms>;
 
@@ -14,7 +15,7 @@ const holds = <T>(value: T): IUniform<T> => ({ value });
 export function makeUniforms() {
   return {
     uMode: holds(0), uOutput: holds<number>(OUTPUT.display), uSide: holds(0),
-    uToneRow: holds<Texture>(floats(new Float32Array(2), 2)), uToneAt: holds(new Vector3(0, 1, 2)), uWhite: holds(1), uToneOnChannels: holds(false),
+    uToneRow: holds<Texture>(floats(new Float32Array(2), 2)), uToneAt: holds(new Vector3(0, 1, 2)), uWhite: holds(1), uBalance: holds(new Matrix3()), uToneOnChannels: holds(false),
     uColours: holds<Texture>(bytes(new Uint8Array(4 * 256))), uLimits: holds(new Vector2(0, 1)), uLogarithmic: holds(false),
     uTickCount: holds(0), uTicks: holds(new Array<number>(24).fill(0)), uPixels: holds(1),
     uSurroundings: holds<Texture | null>(null), uCubeSize: holds(0), uCentre: holds(new Vector3()),

@@ -30,7 +30,7 @@ pub(super) fn show(bench: &Bench<'_>, map_of_card: &Path) -> Result<String, Stri
     let room = bench.lightmap(&map, "room-blender.glb", "blender", &[])?;
     let picture = bench.folder.join("room.png");
     let exposure = format!("{PICTURE_WHITE_CD_M2}cd/m2");
-    let look = ["--camera", "front", "--size", PICTURE_SIZE, "--tone", "linear"];
+    let look = ["--camera", "front", "--size", PICTURE_SIZE, "--tone", "linear", "--white", "none"];
     let into = ["render", &text(&map), "-o", &text(&picture), "--exposure", &exposure];
     bench.isolux(&[&into[..], &look].concat())?;
     let mut judge = Command::new(python);

@@ -3,7 +3,7 @@
 use super::folder::Folder;
 use super::plan::Plan;
 use crate::failure::Failure;
-use crate::{render, viewpoint};
+use crate::{render, traced, viewpoint};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_compare::metric::{DeltaE, White, Xyz, colour_difference, picture_distance};
@@ -31,7 +31,7 @@ impl Viewer {
             profile: MonitorProfile::srgb(),
             reference_lx: Vec::new(),
         };
-        let seen = render::bare(scene, map, &viewer.camera, viewer.size)?;
+        let seen = traced::bare(scene, map, &viewer.camera, viewer.size)?;
         let white = Exposure::Automatic.white_cd_m2(&seen).map_err(Failure::bad_input)?;
         let reference_lx = illuminances_lx(&seen);
         Ok(Self { exposure: Exposure::WhiteCdM2(white), reference_lx, ..viewer })
@@ -39,7 +39,7 @@ impl Viewer {
 
     /// By how much the illuminance that a bare map shows differs from that of the reference, pixel by pixel.
     pub(crate) fn errors(&self, scene: &Scene, map: &IlluminationMap) -> Result<Errors, Failure> {
-        Ok(self.errors_of(&render::bare(scene, map, &self.camera, self.size)?))
+        Ok(self.errors_of(&traced::bare(scene, map, &self.camera, self.size)?))
     }
 
     fn errors_of(&self, seen: &LuminanceImage) -> Errors {
@@ -58,7 +58,7 @@ impl Viewer {
         (folder, name): (&Folder, &str),
     ) -> Result<Errors, Failure> {
         let how = Development { exposure: self.exposure, ..Development::default() };
-        let seen = render::bare(scene, map, &self.camera, self.size)?;
+        let seen = traced::bare(scene, map, &self.camera, self.size)?;
         let picture = develop(&seen, &how).map_err(Failure::bad_input)?;
         render::write(&folder.output(name, "png")?, &picture)?;
         Ok(self.errors_of(&seen))

@@ -101,7 +101,7 @@ fn seen(scene: &Scene, camera: &Camera, extent_m: f64, is_lit: &IsLit<'_>) -> f6
     let rays = ViewRays::new(camera, size);
     let lit = |k: u32| {
         let middle = |pixel: u32| f64::from(pixel) + 0.5;
-        let (ray, _) = rays.through(middle(k % across), middle(k / across));
+        let (ray, _) = rays.through(middle(k % across), middle(k / across))?;
         let hit = scene.bvh().closest_hit(&ray)?;
         let is_lit = is_lit(hit.triangle, hit.back, [f64::from(hit.u), f64::from(hit.v)]);
         is_lit.then(|| (f64::from(hit.t) / extent_m).max(0.0).sqrt())

@@ -1,4 +1,4 @@
-//! The camera of a view: one of the scene's, or one that shows the most of it.
+//! The views of a scene: by its cameras, from an eye, as Radiance says, or one that shows the most of it.
 
 mod inside;
 mod overview;
@@ -8,39 +8,91 @@ use crate::flags::EyeFlags;
 use crate::shown::names;
 pub(crate) use inside::IsLit;
 use isolux::geometry::{Point, Vector};
-use isolux::scene::{Camera, Scene};
-use overview::{VERTICAL_FOV_RAD, looking, overview, up_of};
+use isolux::scene::{Camera, Scene, UpAxis};
+use isolux_view::{Projection, View};
+use overview::{Gaze, VERTICAL_FOV_RAD, gaze, overview, up_of};
 
-/// The camera that flags ask for: by name, by an eye, or by a view file; else the first of the scene, or else one of our
-/// own inside it.
-pub(crate) fn chosen(
-    scene: &Scene,
-    name: Option<&str>,
-    eye: &EyeFlags,
-    is_lit: &IsLit<'_>,
-) -> Result<Camera, String> {
-    if let Some(path) = &eye.radiance_view {
-        return radiance::read(path);
-    }
-    if let Some(position) = eye.eye {
-        return eye_of(scene, position, eye);
-    }
-    match (name, scene.cameras()) {
-        (None, []) => Ok(inside::inside(scene, is_lit)),
-        _ => camera(scene, name),
+/// A view and the name of its camera.
+#[derive(Clone, Debug)]
+pub(crate) struct NamedView {
+    pub(crate) name: String,
+    pub(crate) view: View,
+}
+
+impl From<&Camera> for NamedView {
+    fn from(camera: &Camera) -> Self {
+        Self { name: camera.name.clone(), view: camera.into() }
     }
 }
 
-/// The camera at an eye, which looks at its target, or at the middle of the scene.
-fn eye_of(scene: &Scene, position: [f64; 3], flags: &EyeFlags) -> Result<Camera, String> {
+/// The views that flags ask for: of cameras by name, of all of them, from an eye, or as Radiance says; else of the first camera of
+/// the scene, or else of one of our own inside it. There is always one at least.
+pub(crate) fn chosen(
+    scene: &Scene,
+    flags: &EyeFlags,
+    is_lit: &IsLit<'_>,
+) -> Result<Vec<NamedView>, String> {
+    let mut views = perspectives(scene, flags, is_lit)?;
+    if flags.panorama {
+        let up = up_of(scene);
+        for NamedView { view, .. } in &mut views {
+            // Eyes that look straight up or down have ahead of them what is up in their picture.
+            if gaze(view.direction.to_vector(), up.to_vector()).is_err() {
+                view.direction = view.up;
+            }
+            *view = View { up, projection: Projection::Panorama, ..*view };
+        }
+    }
+    Ok(views)
+}
+
+fn perspectives(
+    scene: &Scene,
+    flags: &EyeFlags,
+    is_lit: &IsLit<'_>,
+) -> Result<Vec<NamedView>, String> {
+    let eye = |view| vec![NamedView { name: "eye".to_owned(), view }];
+    if let Some(view) = radiance::asked(&flags.radiance)? {
+        return Ok(eye(view));
+    }
+    if let Some(position) = flags.eye {
+        return eye_of(scene, position, flags).map(eye);
+    }
+    match (flags.camera.as_slice(), flags.all_cameras, scene.cameras()) {
+        (_, true, []) => Err("there is no camera; leave --all-cameras out".to_owned()),
+        (_, true, all) => Ok(all.iter().map(NamedView::from).collect()),
+        ([], _, []) => Ok(vec![(&inside::inside(scene, is_lit)).into()]),
+        ([], _, [first, ..]) => Ok(vec![first.into()]),
+        (wanted, ..) => {
+            wanted.iter().map(|name| camera(scene, Some(name)).map(|c| (&c).into())).collect()
+        }
+    }
+}
+
+/// The view from an eye, which looks at its target, or at the middle of the scene.
+fn eye_of(scene: &Scene, position: [f64; 3], flags: &EyeFlags) -> Result<View, String> {
     let point = |[x, y, z]: [f64; 3]| Point::new(x, y, z);
     let middle = || scene.bvh().mesh().bounds().map_or(Point::ORIGIN, |(a, b)| a.lerp(b, 0.5));
     let position = point(position);
     let towards = flags.target.map_or_else(middle, point) - position;
     let up = flags.up.map_or_else(|| up_of(scene).to_vector(), |[x, y, z]| Vector::new(x, y, z));
-    let fov_deg = flags.fov.unwrap_or(VERTICAL_FOV_RAD.to_degrees());
-    looking(position, towards, up, fov_deg)
-        .map_err(|problem| format!("--eye: {problem}; give another --target, or --up X,Y,Z"))
+    let vertical_rad = flags.fov.map_or(VERTICAL_FOV_RAD, f64::to_radians);
+    // Who looks all around needs no target, even straight above or below the middle.
+    let found = match gaze(towards, up) {
+        Err(_) if flags.panorama && flags.target.is_none() => gaze(ahead(scene), up),
+        found => found,
+    };
+    let Gaze { direction, up } = found
+        .map_err(|problem| format!("--eye: {problem}; give another --target, or --up X,Y,Z"))?;
+    Ok(View { position, direction, up, projection: Projection::Perspective { vertical_rad } })
+}
+
+/// A level way: north in plans, and ahead in glTF.
+fn ahead(scene: &Scene) -> Vector {
+    match scene.up() {
+        UpAxis::Y => Vector::new(0.0, 0.0, -1.0),
+        UpAxis::Z => Vector::new(0.0, 1.0, 0.0),
+    }
 }
 
 /// The camera of that name, or what is wrong with it; without a name, the first one of the scene,

@@ -1,4 +1,4 @@
-//! Cameras by their axes, and the view of a whole scene.
+//! Where an eye looks, and the view of a whole scene.
 
 use isolux::geometry::{Direction, Point, Vector};
 use isolux::scene::{Camera, Scene, UpAxis};
@@ -11,23 +11,20 @@ const PARALLEL_COS: f64 = 0.99996;
 /// A wide angle, as of a 20 mm lens.
 pub(super) const VERTICAL_FOV_RAD: f64 = 1.15;
 
-/// A camera by its axes, or what is wrong with them.
-pub(super) fn looking(
-    position: Point,
-    towards: Vector,
-    up: Vector,
-    vertical_fov_deg: f64,
-) -> Result<Camera, String> {
+/// Where an eye looks, and what is up for it.
+pub(super) struct Gaze {
+    pub(super) direction: Direction,
+    pub(super) up: Direction,
+}
+
+/// A gaze by its axes, or what is wrong with them.
+pub(super) fn gaze(towards: Vector, up: Vector) -> Result<Gaze, String> {
     let direction = towards.direction().ok_or("the eye is where it looks")?;
     let up = up.direction().ok_or("up has no direction")?;
     if up.dot(direction).abs() > PARALLEL_COS {
         return Err("the view goes straight along up".to_owned());
     }
-    if !(vertical_fov_deg > 0.0 && vertical_fov_deg < 180.0) {
-        return Err(format!("an angle of {vertical_fov_deg} degrees is not between 0 and 180"));
-    }
-    let vertical_fov_rad = vertical_fov_deg.to_radians();
-    Ok(Camera { name: "eye".to_owned(), position, direction, up, vertical_fov_rad })
+    Ok(Gaze { direction, up })
 }
 
 /// Up in a scene.

@@ -1,11 +1,13 @@
 //! What the page is told beside the scene: how `render` would show it.
 
-use crate::{map_facts, render};
+use crate::{map_facts, traced};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
+use isolux::units::Rgb;
 use isolux_formats::walk::{ColourMap, Steps, Told, Tone};
 use isolux_view::{
-    ColourMap as Map, Development, Exposure, Scale, Spaced, ToneOperator, round_limits, tone_table,
+    ColourMap as Map, Development, Exposure, Scale, Spaced, ToneOperator, light_of_groups,
+    round_limits, tone_table,
 };
 
 /// The layer of a map whose light is not known by groups.
@@ -25,6 +27,7 @@ pub(crate) fn told(
         file: file.to_owned(),
         about: about(map),
         white_cd_m2: white_cd_m2((scene, map), camera),
+        light_lm: light_lm(scene, &layers),
         tones: tones(),
         colour_maps: colour_maps(),
         scale_lx: limits_lx(map),
@@ -42,17 +45,30 @@ fn about(map: &IlluminationMap) -> Vec<(String, String)> {
 
 /// The luminance that automatic exposure shows as 1, by a small picture of the bare map.
 fn white_cd_m2((scene, map): (&Scene, &IlluminationMap), camera: &Camera) -> f64 {
-    let view = render::bare(scene, map, camera, GLIMPSE).ok();
+    let view = traced::bare(scene, map, camera, GLIMPSE).ok();
     view.and_then(|view| Exposure::Automatic.white_cd_m2(&view).ok()).unwrap_or(1.0)
+}
+
+/// The light of the luminaires of each layer, lm: of the group of its name, or of all of them where there is one layer alone.
+fn light_lm(scene: &Scene, layers: &[String]) -> Vec<Rgb> {
+    let of_groups = light_of_groups(scene);
+    let all = || of_groups.iter().copied().sum();
+    let of_layer = |name: &String| match scene.groups().iter().position(|group| group == name) {
+        Some(group) => of_groups.get(group).copied().unwrap_or(Rgb::BLACK),
+        None if layers.len() == 1 => all(),
+        None => Rgb::BLACK,
+    };
+    layers.iter().map(of_layer).collect()
 }
 
 /// The tone operators of `render`, its usual one first.
 fn tones() -> Vec<Tone> {
     let display_white_cd_m2 = Development::default().display_white_cd_m2;
     let all = [
-        ("reinhard", "Reinhard 2002", ToneOperator::default()),
+        ("filmic", "filmic", ToneOperator::Filmic),
+        ("reinhard", "Reinhard 2002", ToneOperator::REINHARD),
         ("linear", "linear", ToneOperator::LINEAR),
-        ("hable", "filmic (Hable 2010)", ToneOperator::Hable),
+        ("hable", "Hable 2010", ToneOperator::Hable),
         ("ward", "Ward 1994: visible contrast", ToneOperator::Ward),
         (
             "tumblin-rushmeier",

@@ -16,5 +16,6 @@ mod pictures;
 mod ran;
 mod results;
 mod rooms;
+mod views;
 #[cfg(unix)]
 mod walking;

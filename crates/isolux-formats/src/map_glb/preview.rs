@@ -32,24 +32,25 @@ impl Preview {
     pub fn automatic(scene: &Scene, map: &IlluminationMap) -> Self {
         let mut patches = patches(scene, map);
         patches.sort_by(|a, b| a.luminance_cd_m2.total_cmp(&b.luminance_cd_m2));
-        let area: f64 = patches.iter().map(|p| p.area_m2).sum();
-        let mean = patches.iter().map(|p| p.area_m2 * p.luminance_cd_m2).sum::<f64>() / area;
-        if !(mean > 0.0 && mean.is_finite()) {
+        let Some(Means { area_m2, arithmetic, geometric }) = means(&patches) else {
             return Self { exposure_m2_cd: 1.0, white_cd_m2: 1.0 };
-        }
-        let floor = mean * DARKEST_SHARE;
-        let logarithm = |p: &Patch| p.area_m2 * libm::log(p.luminance_cd_m2.max(floor));
-        let average = libm::exp(patches.iter().map(logarithm).sum::<f64>() / area);
-        let mut brighter = area;
+        };
+        let mut brighter = area_m2;
         let white = patches.iter().find(|p| {
             brighter -= p.area_m2;
-            brighter <= WHITE_SHARE * area
+            brighter <= WHITE_SHARE * area_m2
         });
-        let white_cd_m2 = white.map_or(mean, |p| p.luminance_cd_m2.max(average));
+        let white_cd_m2 = white.map_or(arithmetic, |p| p.luminance_cd_m2.max(geometric));
         // Less than one for white would bend the curve the wrong way and exaggerate contrasts; with
         // one it is a straight line.
-        let exposure_m2_cd = (MIDDLE_GREY / average).max(1.0 / white_cd_m2);
+        let exposure_m2_cd = (MIDDLE_GREY / geometric).max(1.0 / white_cd_m2);
         Self { exposure_m2_cd, white_cd_m2 }
+    }
+
+    /// The area-weighted geometric mean of the luminances, cd/m2: what eyes are adapted to, wherever they look. `None` for a map
+    /// without light.
+    pub fn adaptation_cd_m2(scene: &Scene, map: &IlluminationMap) -> Option<f64> {
+        means(&patches(scene, map)).map(|means| means.geometric)
     }
 
     /// Linear Rec. 709 between 0 and 1, for a luminance in three channels, cd/m2.
@@ -69,6 +70,27 @@ impl Preview {
 struct Patch {
     area_m2: f64,
     luminance_cd_m2: f64,
+}
+
+/// Mean luminances over the area, cd/m2.
+struct Means {
+    area_m2: f64,
+    arithmetic: f64,
+    geometric: f64,
+}
+
+/// The means; `None` without light.
+fn means(patches: &[Patch]) -> Option<Means> {
+    let area_m2: f64 = patches.iter().map(|p| p.area_m2).sum();
+    let sum: f64 = patches.iter().map(|p| p.area_m2 * p.luminance_cd_m2).sum();
+    let arithmetic = sum / area_m2;
+    if !(arithmetic > 0.0 && arithmetic.is_finite()) {
+        return None;
+    }
+    let floor = arithmetic * DARKEST_SHARE;
+    let logarithm = |p: &Patch| p.area_m2 * libm::log(p.luminance_cd_m2.max(floor));
+    let geometric = libm::exp(patches.iter().map(logarithm).sum::<f64>() / area_m2);
+    Some(Means { area_m2, arithmetic, geometric })
 }
 
 fn patches(scene: &Scene, map: &IlluminationMap) -> Vec<Patch> {

@@ -22,6 +22,7 @@ pub(super) struct SceneHeader<'a> {
     pub(super) cameras: Vec<CameraRecord<'a>>,
     pub(super) about: &'a [(String, String)],
     pub(super) white_cd_m2: f64,
+    pub(super) light_lm: &'a [Rgb],
     pub(super) tones: Vec<ToneRecord<'a>>,
     pub(super) colour_maps: Vec<ColourMapRecord<'a>>,
     pub(super) scale_lx: Limits,

@@ -10,6 +10,7 @@ use super::record::{
 use crate::map_glb::images;
 use isolux::geometry::Vector;
 use isolux::scene::{Body, Camera, Finish, Material, Scene, Texture};
+use isolux::units::Rgb;
 
 /// A tone operator as a table of base-2 logarithms.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +41,8 @@ pub struct Told {
     pub about: Vec<(String, String)>,
     /// The luminance shown as 1 at first, cd/m2.
     pub white_cd_m2: f64,
+    /// The light of the luminaires of each layer, lm in three channels: eyes adapt to the colour of their sum.
+    pub light_lm: Vec<Rgb>,
     /// Tone operators, the first one is the usual.
     pub tones: Vec<Tone>,
     /// Colour maps, the first one is the usual.
@@ -75,6 +78,7 @@ pub fn scene(scene: &Scene, told: &Told) -> Vec<u8> {
         cameras: cameras(scene),
         about: &told.about,
         white_cd_m2: told.white_cd_m2,
+        light_lm: &told.light_lm,
         tones,
         colour_maps,
         scale_lx: Limits { low: told.scale_lx.0, high: told.scale_lx.1 },

@@ -183,6 +183,7 @@ fn told() -> Told {
     Told {
         file: "a</script>.glb".into(),
         about: vec![("seed".into(), "1".into())],
+        light_lm: Vec::new(),
         white_cd_m2: 10.0,
         tones: Vec::new(),
         colour_maps: vec![("grey", vec![[0; 3]; 256])],

@@ -1,5 +1,6 @@
 //! Tone operators: from luminance to what the display emits.
 
+mod filmic;
 mod hable;
 mod levels;
 mod linear;
@@ -24,7 +25,7 @@ const BRIGHTNESSES: RangeInclusive<f64> = -1.0..=1.0;
 
 /// The closed set of tone operators. All of them are global: a luminance is shown alike wherever in the view it is. None
 /// shows a brighter place darker, and what they would show brighter than white is cut off, channel by channel.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ToneOperator {
     /// Proportional, cut off at white, and then the knobs of a monitor, which act on its signal. For a channel of signal s, 0 for
     /// black and 1 for white, coded as sRGB codes it, they give 1/2 + `contrast` (s - 1/2) + `brightness`. With contrast 1
@@ -35,6 +36,11 @@ pub enum ToneOperator {
         /// The factor on the distance of the signal from its middle, 0 to 100.
         contrast: f64,
     },
+    /// Proportional up to half of white, and then a shoulder up to 36 times the log-average of [`crate::Exposure::Automatic`], on
+    /// each channel, so that what is brighter loses its colour as on film. Exposed 1.3 stops brighter than middle grey, as rooms are
+    /// photographed: white walls are white.
+    #[default]
+    Filmic,
     /// The global operator of Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic tone
     /// reproduction for digital images", eq. 4: L (1 + L / w^2) / (1 + L) on luminance, colours kept
     /// until a channel is cut off at 1.
@@ -55,14 +61,9 @@ pub enum ToneOperator {
     TumblinRushmeier,
 }
 
-impl Default for ToneOperator {
-    /// Reinhard's operator with white 22 times (4.5 stops) above middle grey.
-    fn default() -> Self {
-        Self::Reinhard { white: 4.0 }
-    }
-}
-
 impl ToneOperator {
+    /// Reinhard's operator with white 22 times (4.5 stops) above middle grey.
+    pub const REINHARD: Self = Self::Reinhard { white: 4.0 };
     /// Proportional: the picture can be measured.
     pub const LINEAR: Self = Self::Linear { brightness: 0.0, contrast: 1.0 };
 
@@ -76,6 +77,7 @@ impl ToneOperator {
             Self::Linear { brightness, contrast } => linear(brightness, contrast)?,
             Self::Reinhard { white } if white > 0.0 && white.is_finite() => Form::Reinhard(white),
             Self::Reinhard { white } => return Err(ViewError::ToneWhite(white)),
+            Self::Filmic => Form::Filmic,
             Self::Hable => Form::Hable,
             Self::Ward => Form::Scale(ward::factor(levels) * levels.white_cd_m2),
             Self::TumblinRushmeier => Form::Power(Power::of(levels)),
@@ -104,6 +106,7 @@ enum Form {
     Scale(f64),
     Knobs(Knobs),
     Reinhard(f64),
+    Filmic,
     Hable,
     Power(Power),
 }
@@ -120,6 +123,7 @@ impl ToneMap {
             Form::Scale(factor) => exposed * factor,
             Form::Knobs(knobs) => exposed.map(|channel| knobs.turn(channel)),
             Form::Reinhard(white) => reinhard::show(exposed, white),
+            Form::Filmic => exposed.map(filmic::show),
             Form::Hable => exposed.map(hable::show),
             Form::Power(power) => power.show(exposed),
         }
@@ -130,10 +134,11 @@ impl ToneMap {
 mod tests {
     use super::*;
 
-    const OPERATORS: [ToneOperator; 6] = [
+    const OPERATORS: [ToneOperator; 7] = [
+        ToneOperator::Filmic,
         ToneOperator::LINEAR,
         ToneOperator::Linear { brightness: 0.0, contrast: 1.3 },
-        ToneOperator::Reinhard { white: 4.0 },
+        ToneOperator::REINHARD,
         ToneOperator::Hable,
         ToneOperator::Ward,
         ToneOperator::TumblinRushmeier,
@@ -163,8 +168,7 @@ mod tests {
 
     #[test]
     fn operators_on_luminance_keep_the_hue() {
-        for operator in
-            [ToneOperator::default(), ToneOperator::Ward, ToneOperator::TumblinRushmeier]
+        for operator in [ToneOperator::REINHARD, ToneOperator::Ward, ToneOperator::TumblinRushmeier]
         {
             let shown = operator.at(levels(500.0)).unwrap().apply(Rgb::new(0.2, 0.1, 0.05));
             assert!((shown.0[0] / shown.0[1] - 2.0).abs() < 1e-12, "{operator:?}");

@@ -133,6 +133,10 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
+    /// Beside the round picture of a fisheye.
+    pub(super) const NOTHING: Self =
+        Self { hit: None, direction: Direction::X, surface: None, is_clear: false };
+
     /// Whether both meet one smooth piece of surface that shows nothing else sharply.
     pub(super) fn continues(&self, other: &Self) -> bool {
         !self.is_clear && !other.is_clear && is_one_surface(&self.surface, &other.surface)

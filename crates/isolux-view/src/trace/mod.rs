@@ -8,12 +8,12 @@ mod settings;
 
 pub use settings::{SurfacePoint, TraceSettings};
 
-use crate::camera::ViewRays;
+use crate::camera::{View, ViewRays};
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Middle, Reading, Size};
 use isolux::engine::Highlights;
 use isolux::map::Illuminance;
-use isolux::scene::{Camera, Scene};
+use isolux::scene::Scene;
 use look::{Look, Looker};
 use pixel::Pixels;
 use rayon::prelude::*;
@@ -32,18 +32,18 @@ pub type Read<'a> = dyn Fn(SurfacePoint) -> Option<Illuminance> + Sync + 'a;
 /// many not at all. The same arguments give the same bits on any number of threads.
 pub fn trace(
     scene: &Scene,
-    camera: &Camera,
+    view: impl Into<View>,
     size: Size,
     settings: &TraceSettings,
     read: &Read<'_>,
 ) -> Result<LuminanceImage, ViewError> {
-    trace_watched(scene, camera, size, settings, (read, &mut |_| {}))
+    trace_watched(scene, view, size, settings, (read, &mut |_| {}))
 }
 
 /// The same; `watch` is told the share of the rows that are done.
 pub fn trace_watched(
     scene: &Scene,
-    camera: &Camera,
+    view: impl Into<View>,
     size: Size,
     settings: &TraceSettings,
     (read, watch): (&Read<'_>, &mut dyn FnMut(f64)),
@@ -52,7 +52,7 @@ pub fn trace_watched(
     size.check_samples(per_side.saturating_mul(per_side))?;
     let highlights = if settings.highlights { Highlights::new(scene) } else { None };
     let looker = Looker { scene, settings, highlights: highlights.as_ref(), read };
-    let pixels = Pixels { looker, rays: ViewRays::new(camera, size), size, per_side };
+    let pixels = Pixels { looker, rays: ViewRays::new(view, size), size, per_side };
     let count = (per_side * per_side) as usize;
     let mut samples = vec![Look::NOTHING.seen(); size.pixels() * count];
     let mut middles = vec![None; size.pixels()];

@@ -112,8 +112,8 @@ impl Pixels<'_> {
         let within = |own: f64, other: f64| (own + (other + 0.5) / side) / side;
         let x = left as f64 + within(column, row);
         let y = top as f64 + within(row, column);
-        let (ray, direction) = self.rays.through(x, y);
-        self.looker.meet(&ray, direction)
+        let ray = self.rays.through(x, y);
+        ray.map_or(Meeting::NOTHING, |(ray, direction)| self.looker.meet(&ray, direction))
     }
 
     fn key(&self, pixel: usize, cell: u32) -> Key {

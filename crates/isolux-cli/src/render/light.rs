@@ -1,0 +1,157 @@
+//! Where the light of views comes from: a map, a scene that is solved first, or a cache of samples.
+
+use crate::appearance::ExposureChoice;
+use crate::cached_view::{self, CacheUse};
+use crate::failure::{Failure, Outcome};
+use crate::flags::RenderFlags;
+use crate::interrupt::Interrupt;
+use crate::notes::{Note, note};
+use crate::quantity::show_share;
+use crate::traced::{bare, view};
+use crate::viewpoint::{self, NamedView};
+use crate::{map_file, solving, source, walk};
+use isolux::elements::carries_map;
+use isolux::engine::SolveRequest;
+use isolux::map::IlluminationMap;
+use isolux::scene::Scene;
+use isolux_view::{Gathered, LuminanceImage, View};
+use std::path::{Path, PathBuf};
+
+/// The error that a scene is solved to for a view.
+const DRAFT: f64 = 0.05;
+/// How good a map the samples of a cache would make.
+const CACHE_ACCURACY: f64 = 0.01;
+
+/// A scene and what is known of its light.
+pub(super) struct Lit {
+    pub(super) scene: Scene,
+    light: Light,
+}
+
+enum Light {
+    /// Direct light is evaluated afresh.
+    Map(Box<IlluminationMap>),
+    /// All is interpolated.
+    Bare(Box<IlluminationMap>),
+    Cache {
+        path: PathBuf,
+        accuracy: f64,
+    },
+}
+
+/// A view, and where its indirect light comes from.
+pub(super) struct Seen {
+    pub(super) view: LuminanceImage,
+    pub(super) gathered: Option<Gathered>,
+    pub(super) cache: Option<CacheUse>,
+}
+
+impl Lit {
+    /// Reads a map, or solves a scene, or opens a cache; nothing if the user stops that.
+    pub(super) fn of(flags: &RenderFlags) -> Result<Option<Self>, Failure> {
+        let from = &flags.map;
+        if let Some(path) = &flags.cache {
+            return by_cache(flags, path).map(Some);
+        }
+        let (scene, map) = if is_scene(from) {
+            match solved(from, flags.accuracy.unwrap_or(DRAFT))? {
+                Some(solved) => solved,
+                None => return Ok(None),
+            }
+        } else if flags.accuracy.is_some() {
+            return Err(Failure::bad_input(format!(
+                "--accuracy: {} is a map, solved before; it belongs to a scene or to --cache; leave it out",
+                from.display()
+            )));
+        } else {
+            map_file::read(from)?
+        };
+        let light = match (flags.interpolated, flags.finer) {
+            (false, _) => Light::Map(Box::new(map)),
+            (true, None) => Light::Bare(Box::new(map)),
+            (true, Some(limit)) => Light::Bare(Box::new(walk::finer(&scene, &map, limit))),
+        };
+        Ok(Some(Self { scene, light }))
+    }
+
+    /// The map, unless there is none.
+    pub(super) fn map(&self) -> Option<&IlluminationMap> {
+        match &self.light {
+            Light::Map(map) | Light::Bare(map) => Some(map),
+            Light::Cache { .. } => None,
+        }
+    }
+
+    /// The views that flags ask for.
+    pub(super) fn views(&self, flags: &RenderFlags) -> Result<Vec<NamedView>, Failure> {
+        let is_lit = |triangle, back, [u, v]: [f64; 2]| match self.map() {
+            Some(map) => {
+                let read = map.interpolate(triangle, back, u, v);
+                read.is_some_and(|read| read.illuminance_lx() > 0.0)
+            }
+            None => carries_map(&self.scene, triangle, back),
+        };
+        viewpoint::chosen(&self.scene, &flags.eye, &is_lit)
+            .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))
+    }
+
+    /// Looks; nothing if the user stops that.
+    pub(super) fn see(&self, from: View, size: (u32, u32)) -> Result<Option<Seen>, Failure> {
+        let scene = &self.scene;
+        let plain = |view| Seen { view, gathered: None, cache: None };
+        match &self.light {
+            Light::Map(map) => {
+                let (view, found) = view(scene, map, from, size)?;
+                Ok(Some(Seen { gathered: Some(found), ..plain(view) }))
+            }
+            Light::Bare(map) => Ok(Some(plain(bare(scene, map, from, size)?))),
+            Light::Cache { path, accuracy } => {
+                let looked = cached_view::look(scene, from, size, (path, *accuracy))?;
+                Ok(looked.map(|(view, used)| Seen { cache: Some(used), ..plain(view) }))
+            }
+        }
+    }
+}
+
+/// Whether this is a scene to be solved first, and not a map.
+fn is_scene(path: &Path) -> bool {
+    source::is_builtin(path) || path.exists() && !map_file::is_map(path)
+}
+
+fn by_cache(flags: &RenderFlags, path: &Path) -> Result<Lit, Failure> {
+    if flags.look.exposure == ExposureChoice::Map {
+        let what = "--exposure map: with --cache no map is read; leave one of the two out";
+        return Err(Failure::bad_input(what));
+    }
+    let from = &flags.map;
+    let scene = match map_file::is_map(from) {
+        true => map_file::read(from)?.0,
+        false => source::read_scene(from)?,
+    };
+    if scene.luminous_flux_lm() == 0.0 {
+        return Err(source::no_light(from, &scene));
+    }
+    let accuracy = flags.accuracy.unwrap_or(CACHE_ACCURACY);
+    Ok(Lit { scene, light: Light::Cache { path: path.to_owned(), accuracy } })
+}
+
+/// A scene and its map, in memory alone; nothing if the user stops the run.
+fn solved(path: &Path, accuracy: f64) -> Result<Option<(Scene, IlluminationMap)>, Failure> {
+    let scene = source::read_scene(path)?;
+    let place = path.display();
+    note(
+        Note::Info,
+        format!(
+            "{place} is a scene: it is solved to {} first, and the map is not kept; \
+             `isolux solve {place} -o map.glb` keeps one for more views",
+            show_share(accuracy)
+        ),
+    );
+    let request = SolveRequest { accuracy: Some(accuracy), ..SolveRequest::default() };
+    let solved = solving::solve_here((&scene, path), &request)?;
+    if solved.outcome == Outcome::Interrupted {
+        return Ok(None);
+    }
+    Interrupt::install()?.has_nothing_more_to_keep();
+    Ok(Some((scene, solved.solution.map)))
+}
