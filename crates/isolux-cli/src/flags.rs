@@ -242,8 +242,11 @@ pub(crate) struct GridFlags {
     /// Write all points with their values
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,
-    /// Draw the one grid in false colour with isolux lines, u to the right and v up
-    #[arg(long, value_name = "FILE.png")]
+    /// Significant digits of illuminances in the CSV [default: two below the first digit of the standard error]
+    #[arg(long, value_name = "N", value_parser = quantity::digits, requires = "csv")]
+    pub digits: Option<u8>,
+    /// Draw the one grid as a plan: the room cut at its height, luminaires, values, isolux lines; u to the right and v up
+    #[arg(short = 'o', long, value_name = "FILE.png|FILE.svg")]
     pub picture: Option<PathBuf>,
 }
 

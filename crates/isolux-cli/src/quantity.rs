@@ -70,6 +70,11 @@ pub(crate) fn repetitions(text: &str) -> Result<u32, String> {
     whole(text, 1, 10_000)
 }
 
+/// A number of significant digits. More than 17 say nothing of a number.
+pub(crate) fn digits(text: &str) -> Result<u8, String> {
+    whole(text, 1, 17)
+}
+
 fn whole<N: FromStr + PartialOrd + Display>(text: &str, least: N, most: N) -> Result<N, String> {
     let number = text.trim().parse::<N>().ok().filter(|n| (&least..=&most).contains(&n));
     number.ok_or_else(|| format!("write a whole number from {least} to {most}"))
