@@ -10,13 +10,13 @@ use crate::flags::GridFlags;
 use crate::grid_values::GridValues;
 use crate::output::OutputPath;
 use crate::quantity::significant;
-use crate::rounded::Written;
 use crate::shown::{name, names};
 use crate::{map_file, solving, source};
 use isolux::engine::{MapReader, ProbePoint, SolveRequest};
 use isolux::geometry::{Point, Vector};
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
 use isolux::scene::{CalculationGrid, Scene, UpAxis};
+use isolux_formats::Digits;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -64,7 +64,9 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
         );
     }
     if let Some(csv) = csv {
-        csv.write(rows(&results, Written::of(flags.digits)).as_bytes())?;
+        csv.write(
+            rows(&results, flags.digits.map_or(Digits::ByError, Digits::Significant)).as_bytes(),
+        )?;
     }
     if let (Some(output), [result]) = (picture, &results[..]) {
         picture::write(&output, &scene, result)?;
@@ -291,7 +293,7 @@ const HEADER: &str =
     "grid,i,j,x,y,z,illuminance_lx,standard_error_lx,direct_lx,indirect_lx,maintenance_factor\n";
 
 /// All points as CSV.
-fn rows(results: &[GridResult], written: Written) -> String {
+fn rows(results: &[GridResult], digits: Digits) -> String {
     let mut text = HEADER.to_owned();
     for result in results {
         let across = result.read.grid.counts()[0] as usize;
@@ -303,7 +305,7 @@ fn rows(results: &[GridResult], written: Written) -> String {
                 value((&position, of));
             let error_lx = standard_error_lx.unwrap_or(f64::NAN);
             let fields = [illuminance_lx, standard_error_lx, direct_lx, indirect_lx]
-                .map(|field| field.map_or(String::new(), |v| written.number(v, error_lx)));
+                .map(|field| field.map_or(String::new(), |v| digits.number(v, error_lx)));
             let (i, j, Point { x, y, z }) = (index % across, index / across, position);
             let factor = result.read.grid.maintenance_factor;
             let _ = writeln!(text, "{name},{i},{j},{x},{y},{z},{},{factor}", fields.join(","));

@@ -1,81 +1,28 @@
-//! Numbers rounded to what their errors allow.
+//! Numbers as people read them: no more digits than their errors allow.
 
-/// Digits of exact numbers that people read.
+use isolux_formats::{first_digit, significant, to_decimals};
+
+/// Digits of exact numbers.
 const EXACT: usize = 3;
-/// Digits that files keep below the first digit of the error.
-const KEPT: i32 = 2;
-/// Digits behind the point that are written at most.
-const MOST_DECIMALS: i32 = 12;
 
-/// Where the first digit of an error stands behind the point, negative before it; `None` if it says nothing.
-fn first_digit(error: f64) -> Option<i32> {
-    (error > 0.0 && error.is_finite()).then(|| -(error.log10().floor() as i32))
-}
-
-/// For reading: down to the first digit of the error, and to the second where the first is a 1.
-pub(crate) fn decimals(error: f64) -> Option<i32> {
+/// Digits behind the point down to the first digit of an error, and to the second where the first is a 1.
+fn decimals(error: f64) -> Option<i32> {
     let first = first_digit(error)?;
-    let is_one = error * 10f64.powi(first) < 2.0;
+    let is_one = error * libm::pow(10.0, f64::from(first)) < 2.0;
     Some(first + i32::from(is_one))
 }
 
-/// A number with so many digits behind the point; fewer than none round its whole part.
-pub(crate) fn to_decimals(value: f64, decimals: i32) -> String {
-    if decimals > MOST_DECIMALS {
-        return value.to_string();
-    }
-    let (scale, shown) = (10f64.powi((-decimals).max(0)), decimals.max(0) as usize);
-    let text = format!("{:.shown$}", (value / scale).round_if(scale > 1.0) * scale);
-    // Nothing has no sign, and no digits.
-    if text.trim_start_matches(['-', '0', '.']).is_empty() {
-        return "0".to_owned();
-    }
-    text
-}
-
-trait RoundIf {
-    fn round_if(self, is_rounded: bool) -> Self;
-}
-
-impl RoundIf for f64 {
-    fn round_if(self, is_rounded: bool) -> Self {
-        if is_rounded { self.round() } else { self }
-    }
-}
-
-/// A number for reading, as precisely as its error allows.
+/// A number for reading.
 pub(crate) fn to_error(value: f64, error: f64) -> String {
     match decimals(error) {
         Some(decimals) => to_decimals(value, decimals),
-        None => crate::quantity::significant(value, EXACT),
+        None => significant(value, EXACT),
     }
 }
 
-/// How numbers with an error are written to files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Written {
-    /// With two digits below the first digit of their error, so that nothing is lost.
-    ByError,
-    /// With so many significant digits.
-    Digits(usize),
-}
-
-impl Written {
-    /// As the flag `--digits` asks.
-    pub(crate) fn of(digits: Option<u8>) -> Self {
-        digits.map_or(Self::ByError, |digits| Self::Digits(digits.into()))
-    }
-
-    /// A number, or a part of it, whose standard error is this.
-    pub(crate) fn number(self, value: f64, error: f64) -> String {
-        match self {
-            Self::Digits(digits) => crate::quantity::significant(value, digits),
-            Self::ByError => match first_digit(error) {
-                Some(first) => to_decimals(value, first + KEPT),
-                None => value.to_string(),
-            },
-        }
-    }
+/// A number and its error: `512 ± 4`.
+pub(crate) fn with_error(value: f64, error: f64) -> String {
+    format!("{} \u{b1} {}", to_error(value, error), to_error(error, error))
 }
 
 #[cfg(test)]
@@ -102,15 +49,8 @@ mod tests {
     }
 
     #[test]
-    fn files_keep_two_digits_below_the_first_of_the_error() {
-        let written = |value, error| Written::ByError.number(value, error);
-        assert_eq!(written(512.345_678, 4.0), "512.35");
-        assert_eq!(written(4.123_456, 4.123_456), "4.12");
-        assert_eq!(written(51_234.6, 400.0), "51235");
-        assert_eq!(written(51_234.6, 40_000.0), "51200");
-        assert_eq!(written(0.1, 0.0), "0.1");
-        assert_eq!(written(1e-20, 1e-22), "0.00000000000000000001");
-        assert_eq!(Written::of(Some(3)).number(512.345_678, 4.0), "512");
-        assert_eq!(Written::of(Some(6)).number(512.345_678, 4.0), "512.346");
+    fn errors_stand_beside() {
+        assert_eq!(with_error(512.3, 4.2), "512 \u{b1} 4");
+        assert_eq!(with_error(0.123_456, 0.000_33), "0.1235 \u{b1} 0.0003");
     }
 }

@@ -1,12 +1,11 @@
 //! The figures of a grid as people read them.
 
 use super::GridResult;
-use crate::console::table;
-use crate::quantity::significant;
+use crate::console::{facts, table};
+use crate::quantity::{show_share, significant};
 use crate::rounded::to_error;
 use crate::shown::name;
 use isolux::map::Figure;
-use std::fmt::Write;
 
 /// A figure in lux with its interval.
 pub(super) fn lux(figure: Figure) -> String {
@@ -15,7 +14,7 @@ pub(super) fn lux(figure: Figure) -> String {
 
 /// A ratio with its interval.
 pub(super) fn ratio(figure: Figure) -> String {
-    interval(figure, share)
+    interval(figure, part)
 }
 
 /// A number in or at the ends of an interval, to half the width of it.
@@ -24,7 +23,7 @@ fn rounded(of: Figure, value: f64) -> String {
 }
 
 /// A ratio has two digits behind the point at most, as standards write their limits.
-fn share(of: Figure, value: f64) -> String {
+fn part(of: Figure, value: f64) -> String {
     to_error(value, (0.5 * (of.high - of.low)).max(0.02))
 }
 
@@ -33,55 +32,50 @@ fn interval(of: Figure, written: fn(Figure, f64) -> String) -> String {
     if low == value && high == value { value } else { format!("{value} ({low} to {high})") }
 }
 
-/// The table that people read.
+/// What people read: of one grid a list, of several tables.
 pub(super) fn text(results: &[GridResult]) -> String {
-    let header = ["grid", "Em, lx", "Emin, lx", "U0", "Emax, lx", "Ud"];
-    let row = |result: &GridResult| {
-        let mut row = vec![name(&result.read.grid.name)];
-        match &result.read.figures {
-            Some(f) => row.extend([
-                lux(f.mean_lx),
-                lux(f.least_lx),
-                ratio(f.uniformity),
-                lux(f.greatest_lx),
-                ratio(f.diversity),
-            ]),
-            None => row.extend((1..header.len()).map(|_| "-".to_owned())),
-        }
-        row
-    };
-    let rows: Vec<Vec<String>> = results.iter().map(row).collect();
-    let mut text = table(&header, &rows);
-    text.push('\n');
-    text += &points(results);
-    for result in results.iter().filter(|r| r.read.grid.maintenance_factor != 1.0) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "grid `{}`: maintained values, {} of the initial ones",
-            name(&result.read.grid.name),
-            significant(result.read.grid.maintenance_factor, 3)
-        );
+    if let [result] = results {
+        return facts(&HEADER.into_iter().zip(row(result)).collect::<Vec<_>>());
     }
-    text
+    table(&HEADER, &results.iter().map(row).collect::<Vec<_>>())
 }
 
-/// Where the points are, and the two parts of their mean.
-fn points(results: &[GridResult]) -> String {
-    let row = |result: &GridResult| {
-        let (counts, sides_m) = (result.read.grid.counts(), result.read.grid.sides_m());
-        let cell_m = [0, 1].map(|k| significant(sides_m[k] / f64::from(counts[k]), 2));
-        let mut row = vec![
-            name(&result.read.grid.name),
-            format!("{} x {}", counts[0], counts[1]),
-            format!("{} x {}", cell_m[0], cell_m[1]),
-        ];
-        row.extend(match &result.read.figures {
-            Some(f) => [f.direct_lx, f.indirect_lx].map(|lx| rounded(f.mean_lx, lx)),
-            None => ["-", "-"].map(str::to_owned),
-        });
-        row
-    };
-    let rows: Vec<Vec<String>> = results.iter().map(row).collect();
-    table(&["grid", "points", "spacing, m", "direct Em, lx", "indirect Em, lx"], &rows)
+const HEADER: [&str; 11] = [
+    "grid",
+    "Em, lx",
+    "Emin, lx",
+    "Emax, lx",
+    "U0",
+    "Ud",
+    "points",
+    "spacing, m",
+    "direct, lx",
+    "indirect, lx",
+    "maintained",
+];
+
+/// In the order of the header.
+fn row(result: &GridResult) -> Vec<String> {
+    let grid = &result.read.grid;
+    let mut row = vec![name(&grid.name)];
+    row.extend(match &result.read.figures {
+        Some(f) => [
+            lux(f.mean_lx),
+            lux(f.least_lx),
+            lux(f.greatest_lx),
+            ratio(f.uniformity),
+            ratio(f.diversity),
+        ],
+        None => ["-"; 5].map(str::to_owned),
+    });
+    let (counts, sides_m) = (grid.counts(), grid.sides_m());
+    let cell_m = [0, 1].map(|k| significant(sides_m[k] / f64::from(counts[k]), 2));
+    row.push(format!("{} x {}", counts[0], counts[1]));
+    row.push(format!("{} x {}", cell_m[0], cell_m[1]));
+    row.extend(match &result.read.figures {
+        Some(f) => [f.direct_lx, f.indirect_lx].map(|lx| rounded(f.mean_lx, lx)),
+        None => ["-", "-"].map(str::to_owned),
+    });
+    row.push(show_share(grid.maintenance_factor));
+    row
 }

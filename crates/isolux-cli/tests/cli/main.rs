@@ -13,8 +13,10 @@ mod interrupted;
 mod lightmaps;
 mod lint;
 mod pictures;
+mod plans;
 mod ran;
 mod results;
 mod rooms;
+mod tables;
 #[cfg(unix)]
 mod walking;

@@ -95,14 +95,19 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Around places that may lie further out than `reach_m` from the grid, where it ends.
-    pub(super) fn around(plane: &Plane, reach_m: f64, places: impl Iterator<Item = Place>) -> Self {
-        let mut window = Self { low: [0.0; 2], high: plane.lengths_m };
-        for place in places {
+    /// Around a grid, and as far as the nearest pieces on each side that are no farther from it than `reach_m`.
+    pub(super) fn around(plane: &Plane, reach_m: f64, pieces: &[[Place; 2]]) -> Self {
+        let grid = Self { low: [0.0; 2], high: plane.lengths_m };
+        let reach = Self {
+            low: grid.low.map(|low| low - reach_m),
+            high: grid.high.map(|high| high + reach_m),
+        };
+        let mut window = grid;
+        for [a, b] in pieces.iter().filter_map(|piece| reach.clipped(*piece)) {
             for k in 0..2 {
-                let near = place[k].clamp(-reach_m, plane.lengths_m[k] + reach_m);
-                window.low[k] = window.low[k].min(near);
-                window.high[k] = window.high[k].max(near);
+                // A piece along the grid lies beside it on one axis alone.
+                window.low[k] = window.low[k].min(a[k].max(b[k]));
+                window.high[k] = window.high[k].max(a[k].min(b[k]));
             }
         }
         window
@@ -237,8 +242,11 @@ mod tests {
             maintenance_factor: 1.0,
         };
         let plane = Plane::of(&grid).unwrap();
-        let window = Window::around(&plane, 0.5, [[-0.2, 9.0], [1.0, -9.0]].into_iter());
-        assert_eq!((window.low, window.high), ([-0.2, -0.5], [2.0, 1.5]));
+        // A wall on the left, one askew above, one too far below.
+        let walls =
+            [[[-0.2, -9.0], [-0.2, 9.0]], [[0.0, 1.3], [2.0, 1.4]], [[0.0, -0.6], [2.0, -0.6]]];
+        let window = Window::around(&plane, 0.5, &walls);
+        assert_eq!((window.low, window.high), ([-0.2, 0.0], [2.0, 1.3]));
         assert_eq!(plane.axis_along(0), Some(('y', 1.0, 1.0)));
         assert_eq!(plane.axis_along(1), Some(('x', 1.0, -1.0)));
         assert_eq!(plane.foot(Point::new(0.5, 2.0, 7.0)), [1.0, 0.5]);

@@ -11,6 +11,8 @@ const BAR_WIDTH: f64 = 28.0;
 const BAND: (f64, f64) = (16.0, 44.0);
 const ROW: f64 = 26.0;
 
+type Symbol = fn(&mut Drawing, At);
+
 /// Symbols that stand on the plan.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Shown {
@@ -59,7 +61,7 @@ pub(super) fn draw(on: &mut Drawing, [left, top]: At, height: f64, levels: &Leve
         write(on, [left + BAR_WIDTH + 12.0, y], &number(*level));
     }
     let mut y = bottom + 20.0 + 0.5 * ROW;
-    let rows: [(bool, fn(&mut Drawing, At), &str); 6] = [
+    let rows: [(bool, Symbol, &str); 6] = [
         (
             shown.cut,
             symbols::cut_sample,

@@ -26,9 +26,9 @@ use section::Section;
 /// The longer side of what is drawn of a plane, and the most of its height, pixels.
 const LONGEST: f64 = 1200.0;
 const HIGHEST: f64 = 900.0;
-/// What is drawn beyond the grid: at least so much, m, or this share of its shorter side.
-const REACH_M: f64 = 0.4;
-const REACH: f64 = 0.1;
+/// Walls are drawn that lie at most so far beyond the grid, m, or this share of its shorter side.
+const REACH_M: f64 = 0.75;
+const REACH: f64 = 0.15;
 /// What is shorter than so many distances of points does not keep values apart.
 const BARRIER: f64 = 0.8;
 /// Space around the plan: on all sides of it, for numbers on the left, and below.
@@ -192,7 +192,7 @@ impl Plan<'_> {
 /// What is cut near the grid, and some space around it.
 fn window(plane: &Plane, section: &Section) -> Window {
     let reach_m = (REACH * plane.lengths_m[0].min(plane.lengths_m[1])).max(REACH_M);
-    let mut window = Window::around(plane, reach_m, section.pieces.iter().flatten().copied());
+    let mut window = Window::around(plane, reach_m, &section.pieces);
     let [width_m, height_m] = window.sides_m();
     let scale = (LONGEST / width_m).min(HIGHEST / height_m);
     for k in 0..2 {
