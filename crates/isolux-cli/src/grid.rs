@@ -2,21 +2,22 @@
 
 mod figures;
 mod picture;
+mod result;
 mod warnings;
 
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
-use crate::grid_values::GridValues;
 use crate::output::OutputPath;
 use crate::quantity::significant;
 use crate::shown::{name, names};
 use crate::{map_file, solving, source};
-use isolux::engine::{MapReader, ProbePoint, SolveRequest};
+use isolux::engine::{MapReader, SolveRequest};
 use isolux::geometry::{Point, Vector};
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
 use isolux::scene::{CalculationGrid, Scene, UpAxis};
 use isolux_formats::Digits;
+use result::GridResult;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -184,25 +185,6 @@ fn solved(flags: &GridFlags, scene: &Scene) -> Result<(IlluminationMap, Outcome)
     let request = SolveRequest { accuracy, ..default };
     let solved = solving::solve_here((scene, &flags.source), &request)?;
     Ok((solved.solution.map, solved.outcome))
-}
-
-/// A grid with its values, and what its figures do not say.
-struct GridResult {
-    read: GridValues,
-    /// Whether some points lie in free space, where caustics are unknown.
-    in_space: bool,
-    outside: warnings::Outside,
-}
-
-impl GridResult {
-    fn of(grid: CalculationGrid, reader: &MapReader) -> Self {
-        let read = GridValues::of(grid, reader).expect("a grid without problems has a normal");
-        let on_surface =
-            |&position: &Point| reader.is_on_surface(ProbePoint { position, normal: read.normal });
-        let in_space = !read.points.iter().all(on_surface);
-        let outside = warnings::Outside::of((&read.points, &read.values), read.normal, reader);
-        Self { read, in_space, outside }
-    }
 }
 
 /// What `grid --json` prints.

@@ -1,6 +1,6 @@
 //! The figures of a grid as people read them.
 
-use super::GridResult;
+use super::result::GridResult;
 use crate::console::{facts, table};
 use crate::quantity::{show_share, significant};
 use crate::rounded::to_error;

@@ -1,7 +1,7 @@
 //! The plan of a grid.
 
-use super::GridResult;
 use super::figures;
+use super::result::GridResult;
 use crate::failure::Failure;
 use crate::output::OutputPath;
 use crate::quantity::significant;

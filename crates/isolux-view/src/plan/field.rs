@@ -17,6 +17,8 @@ pub(super) struct Field<'a> {
 
 /// Pieces of the section that are closer to the edge of a cell belong to both, in cells.
 const BETWEEN: f64 = 1e-6;
+/// Walls this close to the edge of the grid, in cells, end it: they keep nothing apart.
+const BESIDE: f64 = 1e-3;
 
 /// From one point to the next, if both have a value and nothing stands between.
 type Step = Option<f64>;
@@ -36,10 +38,11 @@ impl<'a> Field<'a> {
             let ends = piece.map(|place| plane.index_at(place));
             let cells_of = |k: usize| {
                 // A piece between two cells is near to both; one beyond the grid to none.
-                let low = ends[0][k].min(ends[1][k]).max(-0.5) - BETWEEN;
-                let high = ends[0][k].max(ends[1][k]).min(cells[k] as f64 - 1.5) + BETWEEN;
+                let low = ends[0][k].min(ends[1][k]) - BETWEEN;
+                let high = ends[0][k].max(ends[1][k]) + BETWEEN;
                 let of = |at: f64| (at.floor() + 1.0).max(0.0) as usize;
-                if low > high { 0..0 } else { of(low)..(of(high) + 1).min(cells[k]) }
+                let is_beyond = high < BESIDE - 0.5 || low > cells[k] as f64 - 1.5 - BESIDE;
+                if is_beyond { 0..0 } else { of(low)..(of(high) + 1).min(cells[k]) }
             };
             for row in cells_of(1) {
                 for column in cells_of(0) {

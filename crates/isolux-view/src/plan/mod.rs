@@ -26,6 +26,9 @@ use section::Section;
 /// The longer side of what is drawn of a plane, and the most of its height, pixels.
 const LONGEST: f64 = 1200.0;
 const HIGHEST: f64 = 900.0;
+/// Of a corridor the shorter side is drawn at least so long, while the longer one stays below that.
+const NARROWEST: f64 = 260.0;
+const LONGEST_NARROW: f64 = 2400.0;
 /// Walls are drawn that lie at most so far beyond the grid, m, or this share of its shorter side.
 const REACH_M: f64 = 0.75;
 const REACH: f64 = 0.15;
@@ -47,6 +50,8 @@ const CROWDED: f64 = 0.15;
 const MOST_NAMED: usize = 60;
 /// Where the value of a point is written, below or above it, pixels.
 const VALUE_AT: [f64; 2] = [18.0, -18.0];
+/// Points closer than this have a cross only where their value is written, pixels.
+const CROSSES: f64 = 14.0;
 /// Letters of a name at most.
 const LONGEST_NAME: usize = 24;
 
@@ -129,9 +134,7 @@ impl Plan<'_> {
 
     /// As large as fits.
     fn frame(&self, window: Window) -> Frame {
-        let [width_m, height_m] = window.sides_m();
-        let scale = (LONGEST / width_m).min(HIGHEST / height_m);
-        // Whole pixels: the colours of values are pixels.
+        let scale = scale(window.sides_m());
         Frame { window, scale, corner: [GUTTER, self.heading_height()] }
     }
 
@@ -170,7 +173,7 @@ impl Plan<'_> {
         let cells = plane.cells_m().map(|cell_m| cell_m * frame.scale);
         let every = [0, 1].map(|k| (apart[k] / cells[k]).ceil().max(1.0) as usize);
         let first = [0, 1].map(|k| (plane.counts[k] as usize - 1) % every[k] / 2);
-        let is_crowded = cells.iter().any(|cell| *cell < 9.0);
+        let is_crowded = cells.iter().any(|cell| *cell < CROSSES);
         for (index, point) in self.points.iter().enumerate() {
             let Some(lx) = point.illuminance_lx else { continue };
             let of = [index % across, index / across];
@@ -189,12 +192,18 @@ impl Plan<'_> {
     }
 }
 
+/// Pixels a metre of a window with such sides.
+fn scale([width_m, height_m]: [f64; 2]) -> f64 {
+    let usual = (LONGEST / width_m).min(HIGHEST / height_m);
+    let narrow = (NARROWEST / width_m.min(height_m)).min(LONGEST_NARROW / width_m.max(height_m));
+    usual.max(narrow)
+}
+
 /// What is cut near the grid, and some space around it.
 fn window(plane: &Plane, section: &Section) -> Window {
     let reach_m = (REACH * plane.lengths_m[0].min(plane.lengths_m[1])).max(REACH_M);
     let mut window = Window::around(plane, reach_m, &section.pieces);
-    let [width_m, height_m] = window.sides_m();
-    let scale = (LONGEST / width_m).min(HIGHEST / height_m);
+    let scale = scale(window.sides_m());
     for k in 0..2 {
         window.low[k] -= INNER / scale;
         window.high[k] += INNER / scale;
@@ -260,7 +269,9 @@ fn radius(lamps: &[Lamp], frame: &Frame) -> f64 {
     let nearest = |k: usize| {
         let others = points.iter().enumerate().filter(|(other, _)| *other != k);
         let far = |at: &At| (at[0] - points[k][0]).hypot(at[1] - points[k][1]);
-        others.map(|(_, at)| far(at)).fold(f64::INFINITY, f64::min)
+        // Those before each other are drawn as one.
+        let apart = others.map(|(_, at)| far(at)).filter(|apart| *apart > 1.0);
+        apart.fold(f64::INFINITY, f64::min)
     };
     let mut apart: Vec<f64> = (0..points.len()).map(nearest).collect();
     apart.sort_by(f64::total_cmp);
