@@ -9,7 +9,7 @@ use std::fmt::Write;
 pub(super) fn written([width, height]: [u32; 2], marks: &[Mark]) -> String {
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-         height=\"{height}\" font-family=\"sans-serif\">\n\
+         height=\"{height}\" font-family=\"sans-serif\" xml:space=\"preserve\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
     );
     for mark in marks {
