@@ -5,6 +5,7 @@ use crate::failure::{Failure, Outcome};
 use crate::flags::AuditFlags;
 use crate::map_file;
 use crate::quantity::{show_count, show_share, significant};
+use crate::rounded::with_error;
 use crate::shown::name;
 use isolux::engine::{self, AuditSettings};
 use isolux::map::{Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface};
@@ -54,9 +55,8 @@ pub(crate) fn text(audit: &Audit) -> String {
         (
             "  in the mean",
             format!(
-                "{} +- {}",
-                show_share(audit.mean_error),
-                show_share(audit.mean_error_standard_error)
+                "({}) %",
+                with_error(100.0 * audit.mean_error, 100.0 * audit.mean_error_standard_error)
             ),
         ),
         ("would have found", would_find(audit)),
@@ -136,15 +136,15 @@ pub(crate) fn checks(audit: &Audit) -> String {
             !audit.contradicts,
         ),
         row(
-            "readings: true over reported error",
+            "true over reported error",
             ratio(&audit.readings),
-            "not beyond 1.5 without doubt".to_owned(),
+            "not surely > 1.5".to_owned(),
             audit.readings.at_least <= Audit::MOST_UNTOLD,
         ),
         row(
             "the same where trouble is likely",
             ratio(&audit.hard_readings),
-            "not beyond 1.5 without doubt".to_owned(),
+            "not surely > 1.5".to_owned(),
             audit.hard_readings.at_least <= Audit::MOST_UNTOLD,
         ),
         row(
@@ -171,12 +171,11 @@ pub(crate) fn checks(audit: &Audit) -> String {
 
 /// Where the map is wrong, as far as that is beyond doubt.
 fn findings(audit: &Audit) -> String {
-    let with = |lx: f64, error: f64| format!("{} +- {}", significant(lx, 4), significant(error, 2));
     let mut found = String::new();
     if !audit.surfaces.is_empty() {
         let row = |of: &AuditedSurface| {
             let [read, traced] = [of.read_lx, of.traced_lx].map(|lx| significant(lx, 4));
-            let apart = with(of.read_lx - of.traced_lx, of.standard_error_lx);
+            let apart = with_error(of.read_lx - of.traced_lx, of.standard_error_lx);
             vec![name(&of.shape), of.places.to_string(), read, traced, apart]
         };
         let rows: Vec<_> = audit.surfaces.iter().map(row).collect();
@@ -189,8 +188,8 @@ fn findings(audit: &Audit) -> String {
             vec![
                 name(&of.shape),
                 format!("{x} {y} {z}"),
-                with(of.read_lx, of.standard_error_lx),
-                with(of.traced_lx, of.traced_standard_error_lx),
+                with_error(of.read_lx, of.standard_error_lx),
+                with_error(of.traced_lx, of.traced_standard_error_lx),
             ]
         };
         let rows: Vec<_> = audit.worst.iter().map(row).collect();

@@ -96,6 +96,7 @@ fn export_of(flags: &BakeFlags, map: PathBuf) -> ExportFlags {
         without_dark: false,
         onto: is_onto.then(|| flags.scene.clone()),
         without_lights: flags.without_lights,
+        digits: None,
         beside: None,
         finer: Duration::ZERO,
         white: None,

@@ -8,12 +8,19 @@ use crate::map_file;
 use crate::output::OutputPath;
 use crate::quantity::show_bytes;
 use crate::walk_export;
-use isolux_formats::export::{ExportKind, export};
+use isolux_formats::Digits;
+use isolux_formats::export::{ExportKind, csv, export};
 use isolux_formats::map_glb::Preview;
 use serde::Serialize;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
+    if flags.digits.is_some() && extension(flags).as_deref() != Some("csv") {
+        return Err(Failure::bad_input(format!(
+            "{}: --digits is for .csv; end the name in that, or leave it out",
+            flags.output.display()
+        )));
+    }
     if let Some(wanted) = engine_export::Wanted::of(flags)? {
         return wanted.write(flags, json);
     }
@@ -32,7 +39,10 @@ pub(crate) fn run(flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
     output.replaces_exports_alone()?;
     let (scene, map) = map_file::read(&flags.map)?;
     let preview = Preview::automatic(&scene, &map);
-    let bytes = export(&scene, &map, &preview, kind);
+    let bytes = match flags.digits {
+        Some(digits) => csv(&map, Digits::Significant(digits)).into_bytes(),
+        None => export(&scene, &map, &preview, kind),
+    };
     output.write(&bytes)?;
     let report = Report {
         file: output.path().display().to_string(),

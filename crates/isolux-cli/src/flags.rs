@@ -169,6 +169,9 @@ pub(crate) struct ProbeFlags {
     /// halve the standard error
     #[arg(long, value_name = "N", value_parser = quantity::paths, allow_hyphen_values = true)]
     pub paths: Option<u32>,
+    /// Significant digits of illuminances in the table [default: two below the first digit of the standard error]
+    #[arg(long, value_name = "N", value_parser = quantity::digits, allow_hyphen_values = true, conflicts_with = "output")]
+    pub digits: Option<u8>,
     /// Seed of the random numbers of paths [default: 1]
     #[arg(long, value_name = "N", value_parser = quantity::seed, allow_hyphen_values = true)]
     pub seed: Option<u64>,
@@ -201,7 +204,7 @@ pub(crate) struct AuditFlags {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   isolux grid map.glb
-  isolux grid map.glb --height 0.75 --maintenance-factor 0.8 --picture desk-height.png
+  isolux grid map.glb --height 0.75 --maintenance-factor 0.8 -o plan.png
   isolux grid room.toml --accuracy 2% --name desk --csv desk.csv
   isolux grid map.glb --corner 0,0,0.75 --u 2,0,0 --v 0,1,0 --spacing 0.25
 
@@ -243,8 +246,11 @@ pub(crate) struct GridFlags {
     /// Write all points with their values
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,
-    /// Draw the one grid in false colour with isolux lines, u to the right and v up
-    #[arg(long, value_name = "FILE.png")]
+    /// Significant digits of illuminances in the CSV [default: two below the first digit of the standard error]
+    #[arg(long, value_name = "N", value_parser = quantity::digits, allow_hyphen_values = true, requires = "csv")]
+    pub digits: Option<u8>,
+    /// Draw the one grid as a plan: the room cut at its height, luminaires, values, isolux lines; u to the right and v up
+    #[arg(short = 'o', long, value_name = "FILE.png|FILE.svg")]
     pub picture: Option<PathBuf>,
 }
 

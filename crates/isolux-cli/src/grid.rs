@@ -1,31 +1,34 @@
 //! `isolux grid`: illuminance on calculation grids.
 
+mod figures;
+mod picture;
+mod result;
 mod warnings;
 
-use crate::console::{print, print_json, table};
+use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
-use crate::grid_values::GridValues;
 use crate::output::OutputPath;
 use crate::quantity::significant;
 use crate::shown::{name, names};
-use crate::{map_file, render, solving, source};
-use isolux::engine::{MapReader, ProbePoint, SolveRequest};
+use crate::{map_file, solving, source};
+use isolux::engine::{MapReader, SolveRequest};
 use isolux::geometry::{Point, Vector};
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
 use isolux::scene::{CalculationGrid, Scene, UpAxis};
-use isolux_view::{Contours, FalseColour, false_colour, plan};
+use isolux_formats::Digits;
+use result::GridResult;
 use serde::Serialize;
 use std::fmt::Write;
-
-/// The longer side of a picture, pixels.
-const LONGEST_PIXELS: u32 = 960;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     let csv = flags.csv.as_deref().map(|path| OutputPath::check(path, "csv")).transpose()?;
-    let picture =
-        flags.picture.as_deref().map(|path| OutputPath::check(path, "png")).transpose()?;
+    let picture = flags
+        .picture
+        .as_deref()
+        .map(|path| OutputPath::check_any(path, &["png", "svg"]))
+        .transpose()?;
     let (scene, map) = if map_file::is_map(&flags.source) {
         if flags.accuracy.is_some() {
             return Err(Failure::bad_input(format!(
@@ -57,21 +60,23 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     for GridResult { read, in_space, outside } in &results {
         warnings::warn(
             &read.grid.name,
-            (&read.values, *outside),
+            (&read.values, outside),
             in_space.then(|| map.caustic_share()),
         );
     }
     if let Some(csv) = csv {
-        csv.write(rows(&results).as_bytes())?;
+        csv.write(
+            rows(&results, flags.digits.map_or(Digits::ByError, Digits::Significant)).as_bytes(),
+        )?;
     }
     if let (Some(output), [result]) = (picture, &results[..]) {
-        render::write(&output, &result.picture()?)?;
+        picture::write(&output, &scene, result)?;
     }
     if json {
         let grids = results.iter().map(Report::of).collect();
         print_json(&Reports { grids })?;
     } else {
-        print(&text(&results))?;
+        print(&figures::text(&results))?;
     }
     Ok(outcome)
 }
@@ -163,7 +168,7 @@ fn working_plane(
         ),
     };
     Ok(CalculationGrid {
-        name: format!("working plane at {} m", significant(height_m, 3)),
+        name: format!("working plane at {height_m} m"),
         corner,
         u,
         v,
@@ -180,33 +185,6 @@ fn solved(flags: &GridFlags, scene: &Scene) -> Result<(IlluminationMap, Outcome)
     let request = SolveRequest { accuracy, ..default };
     let solved = solving::solve_here((scene, &flags.source), &request)?;
     Ok((solved.solution.map, solved.outcome))
-}
-
-/// A grid with its values, and what its figures do not say.
-struct GridResult {
-    read: GridValues,
-    /// Whether some points lie in free space, where caustics are unknown.
-    in_space: bool,
-    outside: warnings::Outside,
-}
-
-impl GridResult {
-    fn of(grid: CalculationGrid, reader: &MapReader) -> Self {
-        let read = GridValues::of(grid, reader).expect("a grid without problems has a normal");
-        let on_surface =
-            |&position: &Point| reader.is_on_surface(ProbePoint { position, normal: read.normal });
-        let in_space = !read.points.iter().all(on_surface);
-        let outside = warnings::Outside::of((&read.points, &read.values), read.normal, reader);
-        Self { read, in_space, outside }
-    }
-
-    fn picture(&self) -> Result<isolux_view::Picture, Failure> {
-        let values: Vec<Option<Illuminance>> = self.read.maintained().collect();
-        let (counts, sides_m) = (self.read.grid.counts(), self.read.grid.sides_m());
-        let view = plan(&values, counts, sides_m, LONGEST_PIXELS).map_err(Failure::bad_input)?;
-        let how = FalseColour { contours: Some(Contours::AtTicks), ..FalseColour::default() };
-        false_colour(&view, &how).map_err(Failure::bad_input)
-    }
 }
 
 /// What `grid --json` prints.
@@ -293,53 +271,11 @@ fn value((&position, value): (&Point, Option<Illuminance>)) -> Value {
     }
 }
 
-/// The table that people read.
-fn text(results: &[GridResult]) -> String {
-    let header =
-        ["grid", "points", "spacing", "Em", "Emin", "Emax", "U0", "Ud", "direct", "indirect"];
-    let row = |result: &GridResult| {
-        let (counts, sides_m) = (result.read.grid.counts(), result.read.grid.sides_m());
-        let cell_m = [0, 1].map(|k| significant(sides_m[k] / f64::from(counts[k]), 2));
-        let mut row = vec![
-            name(&result.read.grid.name),
-            format!("{} x {}", counts[0], counts[1]),
-            format!("{} x {} m", cell_m[0], cell_m[1]),
-        ];
-        let Some(f) = &result.read.figures else {
-            row.extend((0..7).map(|_| "-".to_owned()));
-            return row;
-        };
-        let lux = |figure: Figure| format!("{} lx", ranged(figure, 3));
-        row.extend([f.mean_lx, f.least_lx, f.greatest_lx].map(lux));
-        row.extend([f.uniformity, f.diversity].map(|figure| ranged(figure, 2)));
-        row.extend([f.direct_lx, f.indirect_lx].map(|lx| format!("{} lx", significant(lx, 3))));
-        row
-    };
-    let rows: Vec<Vec<String>> = results.iter().map(row).collect();
-    let mut text = table(&header, &rows);
-    for result in results.iter().filter(|r| r.read.grid.maintenance_factor != 1.0) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "grid `{}`: maintained values, {} of the initial ones",
-            name(&result.read.grid.name),
-            significant(result.read.grid.maintenance_factor, 3)
-        );
-    }
-    text
-}
-
-fn ranged(figure: Figure, digits: usize) -> String {
-    let [value, low, high] =
-        [figure.value, figure.low, figure.high].map(|number| significant(number, digits));
-    format!("{value} ({low} to {high})")
-}
-
 const HEADER: &str =
     "grid,i,j,x,y,z,illuminance_lx,standard_error_lx,direct_lx,indirect_lx,maintenance_factor\n";
 
 /// All points as CSV.
-fn rows(results: &[GridResult]) -> String {
+fn rows(results: &[GridResult], digits: Digits) -> String {
     let mut text = HEADER.to_owned();
     for result in results {
         let across = result.read.grid.counts()[0] as usize;
@@ -349,8 +285,9 @@ fn rows(results: &[GridResult]) -> String {
         {
             let Value { illuminance_lx, standard_error_lx, direct_lx, indirect_lx, .. } =
                 value((&position, of));
+            let error_lx = standard_error_lx.unwrap_or(f64::NAN);
             let fields = [illuminance_lx, standard_error_lx, direct_lx, indirect_lx]
-                .map(|field| field.map_or(String::new(), |v| v.to_string()));
+                .map(|field| field.map_or(String::new(), |v| digits.number(v, error_lx)));
             let (i, j, Point { x, y, z }) = (index % across, index / across, position);
             let factor = result.read.grid.maintenance_factor;
             let _ = writeln!(text, "{name},{i},{j},{x},{y},{z},{},{factor}", fields.join(","));

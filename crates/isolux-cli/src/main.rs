@@ -48,6 +48,7 @@ mod render;
 mod report;
 mod repository;
 mod request;
+mod rounded;
 mod saved_run;
 mod scene;
 mod serving;

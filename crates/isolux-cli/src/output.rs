@@ -25,11 +25,17 @@ pub(crate) struct OutputPath(PathBuf);
 impl OutputPath {
     /// Checks the extension, and that a file can be written there.
     pub(crate) fn check(path: &Path, extension: &str) -> Result<Self, Failure> {
+        Self::check_any(path, &[extension])
+    }
+
+    /// The same for a kind of file of several.
+    pub(crate) fn check_any(path: &Path, extensions: &[&str]) -> Result<Self, Failure> {
         let found = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-        if found.as_deref() != Some(extension) {
+        if !found.is_some_and(|found| extensions.contains(&found.as_str())) {
             return Err(Failure::bad_input(format!(
-                "{}: cannot write this kind of file; end its name in .{extension}",
-                path.display()
+                "{}: cannot write this kind of file; end its name in .{}",
+                path.display(),
+                extensions.join(" or .")
             )));
         }
         atomic::check_writable(path).map_err(Failure::bad_input)?;

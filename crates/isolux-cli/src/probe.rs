@@ -8,8 +8,8 @@ use crate::output::OutputPath;
 use crate::{map_file, points, source};
 use isolux::engine::{ExactSettings, MapReader, PathTracer, ProbePoint};
 use isolux::map::Illuminance;
-use isolux_formats::counted;
 use isolux_formats::rad::irradiance_lines;
+use isolux_formats::{Digits, counted};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt::Write;
@@ -47,9 +47,10 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
         let points = values.iter().map(|v| Reading::of(v.as_ref())).collect();
         print_json(&Readings { points, ambient_lx })?;
     } else if output.is_none() {
+        let digits = flags.digits.map_or(Digits::ByError, Digits::Significant);
         print(HEADER)?;
         for (points, values) in points.chunks(ROWS_AT_ONCE).zip(values.chunks(ROWS_AT_ONCE)) {
-            print(&rows(points, values))?;
+            print(&rows(points, values, digits))?;
         }
     }
     Ok(Outcome::Done)
@@ -174,17 +175,17 @@ const HEADER: &str = "x,y,z,nx,ny,nz,illuminance_lx,standard_error_lx,direct_lx,
 /// Rows made before they are printed: the text of ten million would need gigabytes.
 const ROWS_AT_ONCE: usize = 1 << 14;
 
-fn rows(points: &[ProbePoint], values: &[Option<Illuminance>]) -> String {
+fn rows(points: &[ProbePoint], values: &[Option<Illuminance>], digits: Digits) -> String {
     let mut text = String::new();
     for (point, value) in points.iter().zip(values) {
         let reading = Reading::of(value.as_ref());
         let colours = reading.rgb_lx.map_or([None; 3], |rgb| rgb.map(Some));
         let place = <[f64; 3]>::from(point.position).into_iter();
         let normal = <[f64; 3]>::from(point.normal.to_vector()).into_iter();
-        let known = place.chain(normal).map(Some);
-        let fields = known.chain(reading.photometric()).chain(colours);
-        let fields: Vec<String> =
-            fields.map(|field| field.map_or(String::new(), |v| v.to_string())).collect();
+        let error_lx = reading.standard_error_lx.unwrap_or(f64::NAN);
+        let light = reading.photometric().into_iter().chain(colours);
+        let light = light.map(|field| field.map_or(String::new(), |v| digits.number(v, error_lx)));
+        let fields: Vec<String> = place.chain(normal).map(|v| v.to_string()).chain(light).collect();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", fields.join(","));
     }
@@ -203,7 +204,7 @@ mod tests {
 
     #[test]
     fn unknown_values_are_empty_fields() {
-        let text = rows(&[at(1.5)], &[None]);
+        let text = rows(&[at(1.5)], &[None], Digits::ByError);
         assert_eq!(text, "1.5,0,0.5,0,0,1,,,,,,,\n");
         assert_eq!(HEADER.split(',').count(), text.split(',').count());
     }

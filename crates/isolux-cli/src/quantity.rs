@@ -1,5 +1,6 @@
 //! Quantities as people write them on a command line.
 
+pub(crate) use isolux_formats::significant;
 use std::fmt::Display;
 use std::str::FromStr;
 use std::time::Duration;
@@ -68,6 +69,11 @@ pub(crate) fn receivers(text: &str) -> Result<u32, String> {
 /// A number of repetitions.
 pub(crate) fn repetitions(text: &str) -> Result<u32, String> {
     whole(text, 1, 10_000)
+}
+
+/// A number of significant digits. More than 17 say nothing of a number.
+pub(crate) fn digits(text: &str) -> Result<u8, String> {
+    whole(text, 1, 17)
 }
 
 fn whole<N: FromStr + PartialOrd + Display>(text: &str, least: N, most: N) -> Result<N, String> {
@@ -246,23 +252,6 @@ pub(crate) fn show_count(count: f64) -> String {
     }
 }
 
-/// Digits behind the point that are still read: what takes more is written with its power of ten.
-const MOST_DECIMALS: i32 = 12;
-
-/// A number with so many significant digits, and no fewer than its whole part has.
-pub(crate) fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
-        // Without the sign of a zero.
-        return format!("{}", value + 0.0);
-    }
-    let magnitude = value.abs().log10().floor() as i32;
-    let decimals = (digits as i32 - 1 - magnitude).max(0);
-    if decimals > MOST_DECIMALS {
-        return format!("{value:.*e}", digits.max(1) - 1);
-    }
-    format!("{value:.*}", decimals as usize)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -382,12 +371,5 @@ mod tests {
         }
         assert_eq!(show_share(0.0095), "0.95 %");
         assert_eq!(show_count(3.14e6), "3.14 M");
-        assert_eq!(significant(1234.5, 3), "1234");
-        assert_eq!(significant(0.0, 3), "0");
-        assert_eq!(significant(-0.0, 3), "0");
-        assert_eq!(significant(1.23e-10, 3), "0.000000000123");
-        // What would have no digit left.
-        assert_eq!(significant(1e-13, 3), "1.00e-13");
-        assert_eq!(significant(-3.21e-14, 2), "-3.2e-14");
     }
 }

@@ -42,7 +42,8 @@ pub(crate) fn sentence(text: &str) -> String {
     shown.collect::<Vec<String>>().join("`")
 }
 
-fn cut(text: &str, most: usize) -> String {
+/// A text, with an ellipsis in place of what is longer.
+pub(crate) fn cut(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some(_) => text.chars().take(most - 1).chain(['…']).collect(),
         None => text.to_owned(),

@@ -5,6 +5,7 @@ mod bare;
 pub mod cache_file;
 pub mod checkpoint;
 mod counted;
+mod digits;
 mod efficacy;
 pub mod export;
 mod extent;
@@ -38,5 +39,6 @@ pub mod stl;
 pub mod walk;
 
 pub use counted::counted;
+pub use digits::{Digits, first_digit, significant, to_decimals};
 pub use load::load;
 pub use problem::{Loaded, Problem, Problems};

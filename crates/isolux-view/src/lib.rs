@@ -3,7 +3,7 @@
 //!
 //! [`trace_map()`], or [`trace()`] with a reader of one's own, makes a [`LuminanceImage`] (cd/m2 and lx); [`develop()`] shows it as the eye or a camera
 //! would, in the codes of a display ([`MonitorProfile`]), [`false_colour()`] as a chart of lux with a legend. Both end in a [`Picture`].
-//! [`PolarDiagram`] draws an intensity distribution.
+//! [`PolarDiagram`] draws an intensity distribution, [`Plan`] the values of a calculation grid.
 //! Nothing here reads or writes a file.
 
 mod camera;
@@ -11,19 +11,23 @@ mod colorimetry;
 mod develop;
 mod difference;
 mod direct;
+mod drawing;
 mod error;
 mod exposure;
 mod false_colour;
 mod gathered;
 mod image;
 mod light;
+mod marching;
 mod matrix;
 mod middles;
 mod picture;
 mod plan;
 mod polar;
 mod profile;
+mod round;
 mod srgb;
+mod stroke;
 mod tables;
 mod text;
 mod tone;
@@ -33,6 +37,7 @@ mod white;
 pub use camera::{Projection, View, ViewRays};
 pub use develop::{Development, develop};
 pub use difference::differences;
+pub use drawing::Drawing;
 pub use error::ViewError;
 pub use exposure::Exposure;
 pub use false_colour::{
@@ -42,7 +47,7 @@ pub use gathered::{Gathered, ViewProgress, trace_map};
 pub use image::{LuminanceImage, Reading, Seen, Sight, Size, Surface};
 pub use light::{colour_of_light, light_of_groups};
 pub use picture::{Picture, UNKNOWN};
-pub use plan::plan;
+pub use plan::{Plan, PlanPoint};
 pub use polar::PolarDiagram;
 pub use profile::{MAX_ICC_BYTES, MonitorProfile, ProfileError};
 pub use tables::{Spaced, ToneTable, tone_table};

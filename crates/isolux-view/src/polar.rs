@@ -1,5 +1,7 @@
 //! The polar diagram of an intensity distribution: its main sections, nadir down.
 
+use crate::round::round_step;
+use crate::text::escaped;
 use isolux::geometry::Vector;
 use isolux::photometry::{AngleSystem, IntensityDistribution};
 use std::fmt::Write;
@@ -227,29 +229,7 @@ fn points(intensity: &IntensityDistribution, to_right: Vector) -> Vec<[f64; 2]> 
 
 /// The step of circles for a greatest intensity: 1, 2 or 5 times a power of ten.
 fn ring(most_cd: f64) -> f64 {
-    let least = most_cd / MOST_RINGS;
-    if !(least > 1e-9 && least.is_finite()) {
-        return 1.0;
-    }
-    let decade = libm::pow(10.0, libm::floor(libm::log10(least)));
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|s| s * decade);
-    let step = steps.into_iter().find(|s| *s >= least).unwrap_or(steps[3]);
-    // Powers of ten below 1 are not exact: nine digits are.
-    format!("{step:.9}").parse().unwrap_or(step)
-}
-
-fn escaped(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            c if c.is_control() => safe.push(' '),
-            c => safe.push(c),
-        }
-    }
-    safe
+    round_step(most_cd / MOST_RINGS)
 }
 
 /// Dots of Braille patterns, two across and four down a character.

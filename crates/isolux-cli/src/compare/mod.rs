@@ -13,7 +13,7 @@ mod plan;
 mod point;
 mod wrong;
 
-use crate::console::{print, print_json};
+use crate::console::{print, print_json, wrapped};
 use crate::failure::{Failure, Outcome};
 use crate::flags::CompareFlags;
 use crate::interrupt::Interrupt;
@@ -124,8 +124,8 @@ fn write(folder: &Folder, study: &Study) -> Result<(), Failure> {
 fn text(study: &Study, folder: &Folder) -> String {
     // What was not run tells nothing of the study's conclusions.
     let line = |of: &isolux_compare::study::Conclusion| match of.answer {
-        Answer::Yes => Some(format!("{} Yes: {}\n", of.statement, of.figures)),
-        Answer::No => Some(format!("{} No: {}\n", of.statement, of.figures)),
+        Answer::Yes => Some(wrapped(&format!("{} Yes: {}", of.statement, of.figures))),
+        Answer::No => Some(wrapped(&format!("{} No: {}", of.statement, of.figures))),
         Answer::Unknown => None,
     };
     let conclusions: String = conclusions(study).iter().filter_map(line).collect();

@@ -80,6 +80,9 @@ pub(crate) struct ExportFlags {
     /// Leave out the luminaires of --onto, as their light is in the lightmap
     #[arg(long)]
     pub without_lights: bool,
+    /// With .csv: significant digits of illuminances [default: two below the first digit of the standard error]
+    #[arg(long, value_name = "N", value_parser = quantity::digits, allow_hyphen_values = true)]
+    pub digits: Option<u8>,
     /// With .html: another map (.glb) to be compared with this one
     #[arg(long, value_name = "MAP.glb")]
     pub beside: Option<PathBuf>,

@@ -13,8 +13,10 @@ use rayon::prelude::*;
 const TOLD_FROM: f64 = 1e-3;
 
 /// Points that get no light at all and see nothing that does: as those behind the walls of a room.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Outside {
+    /// Of every point whether it is one.
+    pub(super) points: Vec<bool>,
     /// Within the bounds of the scene.
     within_bounds: usize,
     /// And those beyond.
@@ -27,22 +29,23 @@ impl Outside {
         normal: Normal,
         reader: &MapReader,
     ) -> Self {
-        let is_outside = |&(&position, value): &(&Point, &Option<Illuminance>)| {
+        let is_outside = |(&position, value): (&Point, &Option<Illuminance>)| {
             let is_dark = value.is_some_and(|value| value.illuminance_lx() == 0.0);
             is_dark && !reader.sees_lit(ProbePoint { position, normal })
         };
-        let outside: Vec<_> = points.par_iter().zip(values).filter(is_outside).collect();
-        let beyond = outside.iter().filter(|(position, _)| reader.is_beyond_bounds(**position));
-        let beyond_bounds = beyond.count();
-        Self { within_bounds: outside.len() - beyond_bounds, beyond_bounds }
+        let are_outside: Vec<bool> = points.par_iter().zip(values).map(is_outside).collect();
+        let outside = || points.iter().zip(&are_outside).filter(|(_, is_outside)| **is_outside);
+        let count = outside().count();
+        let beyond_bounds = outside().filter(|(point, _)| reader.is_beyond_bounds(**point)).count();
+        Self { points: are_outside, within_bounds: count - beyond_bounds, beyond_bounds }
     }
 
-    const fn count(self) -> usize {
+    pub(super) const fn count(&self) -> usize {
         self.within_bounds + self.beyond_bounds
     }
 
     /// Where they are.
-    fn place(self) -> String {
+    fn place(&self) -> String {
         match (self.within_bounds, self.beyond_bounds) {
             (_, 0) => "all within the bounds of the scene".into(),
             (0, _) => "all beyond the bounds of the scene".into(),
@@ -57,7 +60,7 @@ impl Outside {
 /// points of the grid are.
 pub(super) fn warn(
     grid: &str,
-    (values, outside): (&[Option<Illuminance>], Outside),
+    (values, outside): (&[Option<Illuminance>], &Outside),
     caustics: Option<f64>,
 ) {
     let own = name(grid);

@@ -50,7 +50,7 @@ impl Contents<'_> {
             all.push((
                 "light unshot",
                 format!(
-                    "{}, {lx} lx of ambient light instead (+- {doubt} at a place)",
+                    "{}, {lx} lx of ambient light instead (\u{b1} {doubt} at a place)",
                     show_share(share)
                 ),
             ));

@@ -154,7 +154,7 @@ fn remarks(case: &CalibratedCase) -> String {
     }
     if let Some(bias) = case.stopping {
         lines.push(format!(
-            "stopping changes coverage by {:+.1} +- {:.1} points{}",
+            "stopping changes coverage by {:+.1} \u{b1} {:.1} points{}",
             100.0 * bias.difference,
             100.0 * bias.standard_error,
             if bias.is_found() { ": BIASED" } else { "" }

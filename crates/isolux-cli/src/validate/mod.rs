@@ -5,7 +5,7 @@ mod calibrated_text;
 mod chosen;
 
 use crate::audit;
-use crate::console::{print, print_json, table};
+use crate::console::{print, print_json, table, wrapped};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{MethodName, ValidateFlags};
 use crate::interrupt::Interrupt;
@@ -71,8 +71,14 @@ fn verdict(row: &ValidateRow) -> String {
 
 fn text(table_of_cases: &ValidateTable) -> String {
     let header = [
-        "case", "method", "seed", "error", "audited", "readings", "outliers", "allowed", "worst",
-        "time", "verdict",
+        "case, method, seed",
+        "error",
+        "audited",
+        "readings",
+        "outliers allowed",
+        "worst",
+        "time",
+        "verdict",
     ];
     let rows: Vec<Vec<String>> = table_of_cases.rows.iter().map(row).collect();
     let calibrations = table_of_cases.calibrations.iter().map(calibration);
@@ -85,14 +91,11 @@ fn text(table_of_cases: &ValidateTable) -> String {
 fn row(row: &ValidateRow) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or("-".to_owned(), |v| significant(v, 2));
     vec![
-        row.case.to_owned(),
-        request::method_name(row.method).to_owned(),
-        row.seed.to_string(),
+        format!("{} {} {}", row.case, request::method_name(row.method), row.seed),
         row.accuracy.map_or("-".to_owned(), |a| show_share(a.reached)),
         row.audit.as_ref().map_or("-".to_owned(), |a| audit::interval(&a.error)),
         row.readings.to_string(),
-        row.outliers.to_string(),
-        row.accepted_outliers.to_string(),
+        format!("{} of {}", row.outliers, row.accepted_outliers),
         number(row.worst.as_ref().map(|worst| worst.ratio)),
         show_seconds(row.time_s),
         verdict(row),
@@ -104,11 +107,11 @@ fn calibration(calibration: &Calibration) -> String {
     let Some(coverage) = calibration.coverage else {
         return format!("{method}: no reading with a statistical error\n");
     };
-    format!(
-        "{method}: intervals of 95 % hold {:.1} % of {} readings ({} outside, chance allows {})\n",
+    wrapped(&format!(
+        "{method}: intervals of 95 % hold {:.1} % of {} readings ({} outside, chance allows {})",
         100.0 * coverage,
         calibration.readings,
         calibration.outside,
         calibration.accepted_outside
-    )
+    ))
 }

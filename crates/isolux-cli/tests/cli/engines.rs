@@ -23,7 +23,7 @@ fn every_target_gets_colours_and_says_what_they_are() {
     }
     // Of the walls of CUBE, A has 892.8 cd/m2, and a hundredth of the area is about it.
     assert!(whites[..5].iter().all(|white| *white == 900.0 || *white == 890.0), "{whites:?}");
-    let said = home.run(&["export", "m.glb", "-o", "g.glb", "--target", "godot"]).out;
+    let said = home.run(&["export", "m.glb", "-o", "g.glb", "--target", "godot"]).words();
     assert!(said.contains("luminance = COLOR_0 * base colour texture * white_cd_m2"), "{said}");
 }
 

@@ -263,7 +263,7 @@ fn a_dry_run_tells_the_size_of_a_lightmap() {
     let times =
         ["time_earliest_s", "time_s", "time_latest_s"].map(|name| sizes[name].as_f64().unwrap());
     assert!(0.0 < times[0] && times[0] < times[1] && times[1] < times[2], "{sizes}");
-    let text = home.run(&[&["solve", "builtin:cube", "--dry-run"], &texels[..]].concat()).out;
+    let text = home.run(&[&["solve", "builtin:cube", "--dry-run"], &texels[..]].concat()).words();
     assert!(text.contains("on top of the time to solve"), "{text}");
     assert!(home.names().is_empty());
 }

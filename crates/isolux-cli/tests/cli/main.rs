@@ -13,9 +13,11 @@ mod interrupted;
 mod lightmaps;
 mod lint;
 mod pictures;
+mod plans;
 mod ran;
 mod results;
 mod rooms;
+mod tables;
 mod views;
 #[cfg(unix)]
 mod walking;

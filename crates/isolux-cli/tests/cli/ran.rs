@@ -76,6 +76,11 @@ impl Ran {
         }
     }
 
+    /// Standard output in one line: long values go on below.
+    pub(crate) fn words(&self) -> String {
+        self.out.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
     /// The one JSON value on standard output.
     pub(crate) fn json(&self) -> serde_json::Value {
         serde_json::from_str(&self.out).unwrap_or_else(|e| panic!("{e}: {self:?}"))

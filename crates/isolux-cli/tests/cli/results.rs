@@ -268,7 +268,7 @@ fn with_json_progress_every_line_of_standard_error_is_an_object() {
 fn exports_agree_with_what_probe_reads() {
     let home = Home::new();
     assert_eq!(solved(&home, &[]).code, 0);
-    let ran = home.run(&["export", "cube.glb", "-o", "cube.csv"]);
+    let ran = home.run(&["export", "cube.glb", "-o", "cube.csv", "--digits", "17"]);
     assert_eq!(ran.code, 0, "{ran:?}");
     let csv = String::from_utf8(std::fs::read(home.path("cube.csv")).unwrap()).unwrap();
     let rows = csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<&str>>());

@@ -1,5 +1,6 @@
 //! A row a vertex.
 
+use crate::digits::Digits;
 use isolux::map::{IlluminationMap, VertexLight};
 use std::fmt::Write;
 
@@ -7,13 +8,13 @@ const HEADER: &str = "x,y,z,nx,ny,nz,area_m2,illuminance_lx,standard_error_lx,di
                       green_lx,blue_lx\n";
 
 /// All vertices of a map, in its order; empty fields where nothing is known.
-pub(super) fn write(map: &IlluminationMap) -> String {
+pub fn csv(map: &IlluminationMap, digits: Digits) -> String {
     let mut text = HEADER.to_owned();
     for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
         let (p, n) = (vertex.position, vertex.normal.to_vector());
-        let numbers = value.as_ref().map(fields);
-        let fields = (0..7).map(|k| numbers.map_or(String::new(), |n| n[k].to_string()));
-        let fields: Vec<String> = fields.collect();
+        let fields = value.as_ref().map_or([const { String::new() }; 7], |value| {
+            fields(value).map(|number| digits.number(number, value.standard_error_lx))
+        });
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,

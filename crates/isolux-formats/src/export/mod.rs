@@ -10,6 +10,9 @@ mod vrml;
 mod vtu;
 mod x3d;
 
+pub use csv::csv;
+
+use crate::digits::Digits;
 use crate::map_glb::{self, Preview};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
@@ -55,7 +58,7 @@ pub fn export(
         ExportKind::X3d => x3d::write(&shown::Shown::of(scene, map, preview)).into_bytes(),
         ExportKind::Vtu => vtu::write(scene, map),
         ExportKind::Ply => ply::write(scene, map, preview),
-        ExportKind::Csv => csv::write(map).into_bytes(),
+        ExportKind::Csv => csv(map, Digits::ByError).into_bytes(),
     }
 }
 

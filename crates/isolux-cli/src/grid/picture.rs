@@ -1,0 +1,89 @@
+//! The plan of a grid.
+
+use super::figures;
+use super::result::GridResult;
+use crate::failure::Failure;
+use crate::output::OutputPath;
+use crate::quantity::significant;
+use crate::render;
+use crate::rounded::to_error;
+use crate::shown::name;
+use isolux::scene::{Scene, UpAxis};
+use isolux_formats::counted;
+use isolux_view::{Plan, PlanPoint};
+
+/// Draws a grid, as pixels or as SVG by the end of the name.
+pub(super) fn write(
+    output: &OutputPath,
+    scene: &Scene,
+    result: &GridResult,
+) -> Result<(), Failure> {
+    let grid = &result.read.grid;
+    let points: Vec<PlanPoint> =
+        result.read.maintained().zip(&result.outside.points).map(point).collect();
+    let (title, lines) = heading(scene, result);
+    let plan = Plan { scene, grid, points: &points, title: &title, lines: &lines };
+    let drawing = plan.drawing().map_err(Failure::bad_input)?;
+    if output.path().extension().is_some_and(|end| end.eq_ignore_ascii_case("svg")) {
+        return output.write(drawing.svg().as_bytes());
+    }
+    render::write(output, &drawing.picture())
+}
+
+fn point((value, is_outside): (Option<isolux::map::Illuminance>, &bool)) -> PlanPoint {
+    let value = value.filter(|_| !is_outside);
+    let lx = value.map(|value| value.illuminance_lx());
+    let error_lx = value.map_or(0.0, |value| value.standard_error_lx);
+    // Whole lux are enough on a plan, unless there are few.
+    let label = lx
+        .map_or(String::new(), |lx| to_error(lx, error_lx.max(if lx < 10.0 { 0.1 } else { 2.0 })));
+    PlanPoint { illuminance_lx: lx, standard_error_lx: error_lx, label }
+}
+
+/// The title, and lines below it.
+fn heading(scene: &Scene, result: &GridResult) -> (String, Vec<String>) {
+    let grid = &result.read.grid;
+    let title = if scene.name().is_empty() { grid.name.as_str() } else { scene.name() };
+    let mut about = vec![format!("Grid: {}", name(&grid.name))];
+    about.extend(height_m(scene, result).map(|m| format!("height {} m", short(m))));
+    let counts = grid.counts();
+    about.push(format!("{} x {} points", counts[0], counts[1]));
+    about.push(match grid.maintenance_factor {
+        1.0 => "initial values".to_owned(),
+        factor => format!("maintenance factor {}", significant(factor, 2)),
+    });
+    let mut lines = vec![about.join("  \u{b7}  ")];
+    if let Some(f) = result.read.figures {
+        let all = [("Em", f.mean_lx), ("Emin", f.least_lx), ("Emax", f.greatest_lx)];
+        lines.push(
+            all.map(|(name, figure)| format!("{name} {} lx", figures::lux(figure))).join("   "),
+        );
+        let all = [("U0 = Emin/Em", f.uniformity), ("Ud = Emin/Emax", f.diversity)];
+        lines.push(
+            all.map(|(name, figure)| format!("{name} {}", figures::ratio(figure))).join("   "),
+        );
+    }
+    let outside = result.outside.count();
+    if outside > 0 {
+        let points = counted(outside, "point", "points");
+        lines.push(format!("{points} outside of the room count as 0 lx in these figures"));
+    }
+    (name(title), lines)
+}
+
+/// A length to the millimetre, without needless zeros.
+fn short(m: f64) -> String {
+    let text = format!("{m:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Above the origin of the scene, of a level grid.
+fn height_m(scene: &Scene, result: &GridResult) -> Option<f64> {
+    let height = |point: &isolux::geometry::Point| match scene.up() {
+        UpAxis::Y => point.y,
+        UpAxis::Z => point.z,
+    };
+    let is_level =
+        result.read.normal.to_vector().dot(scene.up().direction().to_vector()).abs() > 1.0 - 1e-9;
+    result.read.points.first().map(height).filter(|_| is_level)
+}

@@ -1,0 +1,26 @@
+//! What is found on one grid.
+
+use super::warnings::Outside;
+use crate::grid_values::GridValues;
+use isolux::engine::{MapReader, ProbePoint};
+use isolux::geometry::Point;
+use isolux::scene::CalculationGrid;
+
+/// A grid with its values, and what its figures do not say.
+pub(super) struct GridResult {
+    pub(super) read: GridValues,
+    /// Whether some points lie in free space, where caustics are unknown.
+    pub(super) in_space: bool,
+    pub(super) outside: Outside,
+}
+
+impl GridResult {
+    pub(super) fn of(grid: CalculationGrid, reader: &MapReader) -> Self {
+        let read = GridValues::of(grid, reader).expect("a grid without problems has a normal");
+        let on_surface =
+            |&position: &Point| reader.is_on_surface(ProbePoint { position, normal: read.normal });
+        let in_space = !read.points.iter().all(on_surface);
+        let outside = Outside::of((&read.points, &read.values), read.normal, reader);
+        Self { read, in_space, outside }
+    }
+}
