@@ -6,6 +6,7 @@ use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
 use crate::grid_values::GridValues;
+use crate::maintained::{self, Maintained};
 use crate::output::OutputPath;
 use crate::quantity::significant;
 use crate::shown::{name, names};
@@ -52,6 +53,7 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     };
     map_file::warn_of_unknown_error(&flags.source, &map);
     let reader = MapReader::new(&scene, &map);
+    let light = Maintained::of(&scene);
     let results: Vec<GridResult> =
         grids.into_iter().map(|grid| GridResult::of(grid, &reader)).collect();
     for GridResult { read, in_space, outside } in &results {
@@ -68,16 +70,19 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
         render::write(&output, &result.picture()?)?;
     }
     if json {
-        let grids = results.iter().map(Report::of).collect();
+        let grids = results.iter().map(|result| Report::of(result, light)).collect();
         print_json(&Reports { grids })?;
     } else {
-        print(&text(&results))?;
+        print(&text(&results, light))?;
     }
     Ok(outcome)
 }
 
 /// The grids asked for, as they are asked for.
 fn grids(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
+    if let Some(factor) = flags.maintenance_factor {
+        maintained::refuse_second(factor, scene, &flags.source)?;
+    }
     let mut grids = match (flags.height, flags.corner.zip(flags.u.zip(flags.v))) {
         (Some(height_m), _) => vec![working_plane(flags, scene, height_m)?],
         (None, Some((corner, (u, v)))) => vec![CalculationGrid {
@@ -219,6 +224,8 @@ struct Reports {
 struct Report {
     name: String,
     maintenance_factor: f64,
+    #[serde(flatten)]
+    maintained: Maintained,
     /// Numbers of points along the sides, and their distances.
     counts: [u32; 2],
     spacing_m: [f64; 2],
@@ -254,7 +261,7 @@ struct Value {
 }
 
 impl Report {
-    fn of(result: &GridResult) -> Self {
+    fn of(result: &GridResult, light: Maintained) -> Self {
         let interval = |read: fn(&GridFigures) -> Figure| {
             result.read.figures.as_ref().map(read).map(|Figure { value, low, high }| Interval {
                 value,
@@ -266,6 +273,7 @@ impl Report {
         Self {
             name: result.read.grid.name.clone(),
             maintenance_factor: result.read.grid.maintenance_factor,
+            maintained: light.on_grid(result.read.grid.maintenance_factor),
             counts,
             spacing_m: [0, 1].map(|k| sides_m[k] / f64::from(counts[k])),
             border_m: result.read.grid.border_m,
@@ -294,7 +302,7 @@ fn value((&position, value): (&Point, Option<Illuminance>)) -> Value {
 }
 
 /// The table that people read.
-fn text(results: &[GridResult]) -> String {
+fn text(results: &[GridResult], light: Maintained) -> String {
     let header =
         ["grid", "points", "spacing", "Em", "Emin", "Emax", "U0", "Ud", "direct", "indirect"];
     let row = |result: &GridResult| {
@@ -317,14 +325,17 @@ fn text(results: &[GridResult]) -> String {
     };
     let rows: Vec<Vec<String>> = results.iter().map(row).collect();
     let mut text = table(&header, &rows);
-    for result in results.iter().filter(|r| r.read.grid.maintenance_factor != 1.0) {
+    for GridResult { read: GridValues { grid, .. }, .. } in results {
+        let (own, factor) = (name(&grid.name), grid.maintenance_factor);
         // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "grid `{}`: maintained values, {} of the initial ones",
-            name(&result.read.grid.name),
-            significant(result.read.grid.maintenance_factor, 3)
-        );
+        let _ = match factor {
+            1.0 => writeln!(text, "grid `{own}`: values are {}", light.text()),
+            _ => writeln!(
+                text,
+                "grid `{own}`: values are maintained, {} of the initial ones",
+                significant(factor, 3)
+            ),
+        };
     }
     text
 }

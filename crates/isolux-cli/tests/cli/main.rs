@@ -6,6 +6,7 @@ mod bad_input;
 #[cfg(unix)]
 mod caches;
 mod engines;
+mod errors;
 mod grids;
 mod groups;
 #[cfg(unix)]
@@ -14,6 +15,8 @@ mod lightmaps;
 mod lint;
 mod pictures;
 mod ran;
+#[cfg(unix)]
+mod readme;
 mod results;
 mod rooms;
 #[cfg(unix)]
