@@ -5,6 +5,7 @@ mod arriving;
 mod bad_input;
 #[cfg(unix)]
 mod caches;
+mod days;
 mod engines;
 mod errors;
 mod grids;
