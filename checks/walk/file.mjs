@@ -53,5 +53,5 @@ async function alike(command, browser, url) {
   const difference = meanDifference(await settled(page), picture);
   await Promise.all(pages.map(leave));
   await Promise.all([bare, served].map(({ stop }) => stop()));
-  return `${atMost('mean CIE94', difference, MOST_ALIKE)}, from the bare map ${meanDifference(first, picture).toFixed(3)}`;
+  return `${atMost('mean CIE94', difference, MOST_ALIKE)}, from the interpolated map ${meanDifference(first, picture).toFixed(3)}`;
 }

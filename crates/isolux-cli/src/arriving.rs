@@ -85,7 +85,7 @@ impl FluxLost {
             note(
                 Note::Warning,
                 format!(
-                    "next to nothing of the light of {named} comes to a surface that carries the map{share}: \
+                    "almost no light of {named} reaches a surface that carries the map{share}: \
                      `isolux check` names luminaires that light nothing"
                 ),
             );

@@ -49,7 +49,7 @@ pub(crate) fn run(flags: &BakeFlags, json: bool) -> Result<Outcome, Failure> {
     };
     let run = Run { source: &flags.scene, output: &map, request: &request };
     let solved = solve(&scene, &run, None, (&mut Reporter::new(None), None))?;
-    let report = Report::of(&solved.solution.map, solved.solution.time_s, &map);
+    let report = Report::of((&scene, &solved.solution.map), solved.solution.time_s, &map);
     if solved.outcome == Outcome::Interrupted {
         note(Note::Warning, format!("{}: not written", flags.output.display()));
         return Ok(Outcome::Interrupted);

@@ -40,7 +40,11 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let walk = walk::file(&[Opened::read(files.map.path())?], FINER)?;
     files.walk.write(walk.as_bytes())?;
     let results = Results {
-        solution: report::Report::of(&solved.solution.map, solved.solution.time_s, &files.map),
+        solution: report::Report::of(
+            (&scene, &solved.solution.map),
+            solved.solution.time_s,
+            &files.map,
+        ),
         picture: files.picture.path().display().to_string(),
         false_colour: files.false_colour.path().display().to_string(),
         walk_through: files.walk.path().display().to_string(),

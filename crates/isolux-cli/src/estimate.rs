@@ -1,6 +1,7 @@
 //! A first guess of what a run will need, from the first seconds of its pilot.
 
-use crate::quantity::{show_bytes, show_seconds};
+use crate::quantity::{show_bytes, show_seconds, show_share};
+use crate::reach;
 use isolux::engine::{SolveError, SolveRequest, foresee};
 use isolux::scene::Scene;
 use serde::Serialize;
@@ -10,8 +11,8 @@ use std::time::Duration;
 const BYTES_A_RECEIVER: u64 = 2900;
 /// Mesh and hierarchy of a triangle: 3 vertices, normals, texture coordinates, and its nodes.
 const BYTES_A_TRIANGLE: u64 = 400;
-/// How long a pilot may look before it is asked what it has seen. (It finishes the round it is in.)
-const PATIENCE: Duration = Duration::from_secs(2);
+/// How long a pilot may look, its first survey aside, before it is asked what it has seen.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Sizes of a run.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -25,6 +26,8 @@ pub(crate) struct Estimate {
     pub time_s: Option<f64>,
     pub time_earliest_s: Option<f64>,
     pub time_latest_s: Option<f64>,
+    /// The accuracy that a day reaches, about, where the time is longer.
+    pub accuracy_in_a_day: Option<f64>,
 }
 
 impl Estimate {
@@ -43,6 +46,10 @@ impl Estimate {
             time_s: seen.finish.map(|p| limited(p.finish_s)),
             time_earliest_s: seen.finish.map(|p| limited(p.earliest_s)),
             time_latest_s: seen.finish.map(|p| limited(p.latest_s)),
+            accuracy_in_a_day: request
+                .accuracy
+                .zip(seen.finish)
+                .and_then(|(goal, p)| reach::in_a_day(goal, limited(p.finish_s))),
         })
     }
 
@@ -55,12 +62,22 @@ impl Estimate {
             time_s: time(|run| run.time_s),
             time_earliest_s: time(|run| run.time_earliest_s),
             time_latest_s: time(|run| run.time_latest_s),
+            accuracy_in_a_day: runs.iter().filter_map(|run| run.accuracy_in_a_day).reduce(f64::max),
         }
     }
 
     /// Receivers, memory and time as a user reads them.
     pub(crate) fn shown(&self) -> [String; 3] {
-        let time = match (self.time_s, self.time_earliest_s, self.time_latest_s) {
+        let receivers = format!("about {}", self.receivers);
+        [receivers, format!("about {}", show_bytes(self.memory_bytes)), self.time()]
+    }
+
+    fn time(&self) -> String {
+        if let Some(share) = self.accuracy_in_a_day {
+            let share = show_share(share);
+            return format!("first guess more than a day; a day reaches about {share}");
+        }
+        match (self.time_s, self.time_earliest_s, self.time_latest_s) {
             (Some(time_s), Some(earliest_s), Some(latest_s)) => format!(
                 "first guess {} ({} to {})",
                 show_seconds(time_s),
@@ -68,8 +85,6 @@ impl Estimate {
                 show_seconds(latest_s)
             ),
             _ => "not known before it runs".to_owned(),
-        };
-        let receivers = format!("about {}", self.receivers);
-        [receivers, format!("about {}", show_bytes(self.memory_bytes)), time]
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! How a run of the command ends.
 
 use crate::notes::Note;
+use crate::trouble::Trouble;
 use std::fmt::Display;
-use std::process::ExitCode;
 
 /// A run that has a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,12 +19,12 @@ pub(crate) enum Outcome {
     Interrupted,
 }
 
-/// A run without a result: one line for every problem.
+/// A run without a result.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The user can mend it.
-    BadInput(Vec<String>),
-    /// The machine cannot: memory, space.
+    /// Problems that the user can mend.
+    BadInput(Vec<Trouble>),
+    /// What the machine cannot do: memory, space.
     Refused(String),
     /// Whoever read our output has gone.
     ReaderGone,
@@ -33,30 +33,41 @@ pub(crate) enum Failure {
 impl Failure {
     /// One problem of the input.
     pub(crate) fn bad_input(problem: impl Display) -> Self {
-        Self::BadInput(vec![problem.to_string()])
+        Self::bad_inputs([problem])
     }
 
-    /// What to print on standard error, a line each.
+    /// Several problems of the input, or one in several lines.
+    pub(crate) fn bad_inputs(problems: impl IntoIterator<Item = impl Display>) -> Self {
+        let texts = problems.into_iter().map(|problem| problem.to_string());
+        let troubles =
+            texts.flat_map(|text| text.lines().map(Trouble::in_words).collect::<Vec<_>>());
+        Self::BadInput(troubles.collect())
+    }
+
+    /// The lines for standard error.
     pub(crate) fn lines(&self) -> Vec<(Note, String)> {
+        let kind = if matches!(self, Self::Refused(_)) { Note::Refused } else { Note::Error };
+        self.troubles().into_iter().map(|trouble| (kind, trouble.message)).collect()
+    }
+
+    /// All problems.
+    pub(crate) fn troubles(&self) -> Vec<Trouble> {
         match self {
-            Self::BadInput(problems) => {
-                let lines = problems.iter().flat_map(|p| p.lines());
-                lines.map(|line| (Note::Error, line.to_owned())).collect()
-            }
-            Self::Refused(why) => vec![(Note::Refused, why.clone())],
+            Self::BadInput(troubles) => troubles.clone(),
+            Self::Refused(why) => vec![Trouble::in_words(why)],
             Self::ReaderGone => Vec::new(),
         }
     }
 }
 
 /// The exit code, as documented in the README.
-pub(crate) fn exit_code(end: &Result<Outcome, Failure>) -> ExitCode {
-    ExitCode::from(match end {
+pub(crate) fn exit_code(end: &Result<Outcome, Failure>) -> u8 {
+    match end {
         Ok(Outcome::Done) | Err(Failure::ReaderGone) => 0,
         Ok(Outcome::CheckFailed) => 1,
         Ok(Outcome::Unusable) | Err(Failure::BadInput(_)) => 2,
         Ok(Outcome::StoppedEarly) => 3,
         Err(Failure::Refused(_)) => 4,
         Ok(Outcome::Interrupted) => 130,
-    })
+    }
 }

@@ -8,6 +8,7 @@ mod warnings;
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
+use crate::maintained::{self, Maintained};
 use crate::output::OutputPath;
 use crate::quantity::significant;
 use crate::shown::{name, names};
@@ -55,6 +56,7 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     };
     map_file::warn_of_unknown_error(&flags.source, &map);
     let reader = MapReader::new(&scene, &map);
+    let light = Maintained::of(&scene);
     let results: Vec<GridResult> =
         grids.into_iter().map(|grid| GridResult::of(grid, &reader)).collect();
     for GridResult { read, in_space, outside } in &results {
@@ -73,16 +75,19 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
         picture::write(&output, &scene, result)?;
     }
     if json {
-        let grids = results.iter().map(Report::of).collect();
+        let grids = results.iter().map(|result| Report::of(result, light)).collect();
         print_json(&Reports { grids })?;
     } else {
-        print(&figures::text(&results))?;
+        print(&figures::text(&results, light))?;
     }
     Ok(outcome)
 }
 
 /// The grids asked for, as they are asked for.
 fn grids(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
+    if let Some(factor) = flags.maintenance_factor {
+        maintained::refuse_second(factor, scene, &flags.source)?;
+    }
     let mut grids = match (flags.height, flags.corner.zip(flags.u.zip(flags.v))) {
         (Some(height_m), _) => vec![working_plane(flags, scene, height_m)?],
         (None, Some((corner, (u, v)))) => vec![CalculationGrid {
@@ -197,6 +202,8 @@ struct Reports {
 struct Report {
     name: String,
     maintenance_factor: f64,
+    #[serde(flatten)]
+    maintained: Maintained,
     /// Numbers of points along the sides, and their distances.
     counts: [u32; 2],
     spacing_m: [f64; 2],
@@ -232,7 +239,7 @@ struct Value {
 }
 
 impl Report {
-    fn of(result: &GridResult) -> Self {
+    fn of(result: &GridResult, light: Maintained) -> Self {
         let interval = |read: fn(&GridFigures) -> Figure| {
             result.read.figures.as_ref().map(read).map(|Figure { value, low, high }| Interval {
                 value,
@@ -244,6 +251,7 @@ impl Report {
         Self {
             name: result.read.grid.name.clone(),
             maintenance_factor: result.read.grid.maintenance_factor,
+            maintained: light.on_grid(result.read.grid.maintenance_factor),
             counts,
             spacing_m: [0, 1].map(|k| sides_m[k] / f64::from(counts[k])),
             border_m: result.read.grid.border_m,

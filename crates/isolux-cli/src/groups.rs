@@ -119,7 +119,7 @@ pub(crate) fn run(
     let (scene, map) = mix(&parts).map_err(|error| Failure::Refused(error.to_string()))?;
     map_file::write(whole.output, &scene, &map)?;
     let mut report = Reports {
-        sum: Report::of(&map, started.elapsed().as_secs_f64(), whole.output)
+        sum: Report::of((&scene, &map), started.elapsed().as_secs_f64(), whole.output)
             .with_flux_lost(flux_lost),
         groups: reports,
     };
@@ -231,7 +231,7 @@ fn solve_one(
         && let Some(map) = finished(output, group, &request)
     {
         note(Note::Info, format!("{}: is complete already", output.path().display()));
-        let report = Report::of(&map, 0.0, output);
+        let report = Report::of((&group.scene, &map), 0.0, output);
         return Ok(SolvedGroup { map, report, outcome: Outcome::Done });
     }
     let saved = match turn.resume {
@@ -242,10 +242,11 @@ fn solve_one(
     let run = Run { source, output, request: &request };
     let mut solved = solving::solve(&group.scene, &run, saved.as_ref(), (reporter, None))?;
     let less = kept::write((&group.scene, &run), &mut solved, turn.resume)?;
-    let Solved { solution, outcome } = solved;
+    let Solved { solution, outcome, .. } = solved;
     let is_done = matches!(outcome, Outcome::Done);
     kept::keep_state(output, (&solution.state, saved.as_ref()), is_done)?;
-    let report = Report::of(&solution.map, solution.time_s, output).instead_of(less);
+    let report =
+        Report::of((&group.scene, &solution.map), solution.time_s, output).instead_of(less);
     Ok(SolvedGroup { map: solution.map, report, outcome })
 }
 

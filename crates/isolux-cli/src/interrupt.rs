@@ -30,7 +30,7 @@ impl Interrupt {
             }
             note(
                 Note::Info,
-                "stopping as soon as what is done can be kept; once more to stop at once",
+                "stopping as soon as the work so far is saved; press Ctrl-C again to stop at once",
             );
         };
         ctrlc::set_handler(handler)

@@ -55,7 +55,7 @@ pub(crate) fn write(
     let less = match better {
         Some((less, map)) if is_resumed => {
             let text = format!(
-                "{path}: is kept, as it knows more than what this run has come to ({}, for {}): allow more time",
+                "{path}: kept, because the result of this run is less accurate ({}, for {}): allow more time",
                 less.text(),
                 LessKnown::of(&map).text()
             );
@@ -65,7 +65,7 @@ pub(crate) fn write(
         }
         Some((less, map)) => {
             let text = format!(
-                "{path}: knew more before ({}, for {}); with --resume a map is replaced only by one that knows more",
+                "{path}: was more accurate before ({}, for {}); with --resume a map is replaced only by a more accurate one",
                 LessKnown::of(&map).text(),
                 less.text()
             );

@@ -134,7 +134,7 @@ impl Planned {
         match &layout.own_places {
             OwnPlaces::None => {}
             OwnPlaces::Kept => {
-                note(Note::Info, "lightmap: surfaces lie where their file puts them")
+                note(Note::Info, "lightmap: uses the lightmap coordinates of the file")
             }
             OwnPlaces::Refused(why) => {
                 note(Note::Warning, format!("{why}; all surfaces are laid out anew"))

@@ -1,6 +1,7 @@
 //! The isolux command: a table of contents.
 
 mod appearance;
+mod arguments;
 mod arriving;
 mod audit;
 mod bake;
@@ -32,6 +33,7 @@ mod lightmap_export;
 mod lightmap_files;
 mod lint;
 mod look;
+mod maintained;
 mod map_facts;
 mod map_file;
 mod meter;
@@ -44,6 +46,7 @@ mod points;
 mod probe;
 mod progress;
 mod quantity;
+mod reach;
 mod render;
 mod report;
 mod repository;
@@ -59,24 +62,31 @@ mod solving;
 mod source;
 mod summary;
 mod traced;
+mod trouble;
 mod validate;
 mod vertex_export;
 mod viewpoint;
 mod walk;
 mod walk_export;
 
-use clap::Parser;
 use failure::{Failure, Outcome, exit_code};
 use flags::{Command, Flags};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let flags = Flags::parse_from(std::env::args_os().map(flags::with_two_dashes));
+    let flags = match arguments::read(std::env::args_os()) {
+        Ok(flags) => flags,
+        Err(code) => return code,
+    };
     let end = run(&flags);
     if let Err(failure) = &end {
         failure.lines().iter().for_each(|(kind, line)| notes::note(*kind, line));
+        if flags.json && !matches!(failure, Failure::ReaderGone) {
+            // Nobody may be there to read it.
+            let _ = console::print_json(&trouble::json(&failure.troubles(), exit_code(&end)));
+        }
     }
-    exit_code(&end)
+    ExitCode::from(exit_code(&end))
 }
 
 fn run(flags: &Flags) -> Result<Outcome, Failure> {

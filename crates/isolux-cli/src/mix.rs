@@ -36,7 +36,7 @@ pub(crate) fn run(flags: &MixFlags, json: bool) -> Result<Outcome, Failure> {
     let parts: Vec<MixPart<'_>> = read.iter().map(Part::asked).collect();
     let (scene, map) = mix(&parts).map_err(|error| failure(&error, &read))?;
     map_file::write(&output, &scene, &map)?;
-    let report = Report::of(&map, started.elapsed().as_secs_f64(), &output);
+    let report = Report::of((&scene, &map), started.elapsed().as_secs_f64(), &output);
     if json {
         print_json(&report)?
     } else {

@@ -1,6 +1,7 @@
 //! What is printed on standard error: everything but results.
 
 use crate::shown::sentence;
+use anstyle::{AnsiColor, Style};
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -41,18 +42,31 @@ impl Note {
         }
     }
 
+    /// How a terminal shows the name.
+    const fn style(self) -> Style {
+        let colour = match self {
+            Self::Error | Self::Refused => AnsiColor::Red,
+            Self::Warning => AnsiColor::Yellow,
+            Self::Info => return Style::new(),
+        };
+        colour.on_default().bold()
+    }
+
+    /// The line, with its style.
     fn line(self, text: &str, as_json: bool) -> String {
+        let style = self.style();
         match (as_json, self) {
             (true, _) => serde_json::json!({ self.name(): text }).to_string(),
             (false, Self::Info) => sentence(text),
-            (false, _) => format!("{}: {}", self.name(), sentence(text)),
+            (false, _) => format!("{style}{}:{style:#} {}", self.name(), sentence(text)),
         }
     }
 }
 
-/// Prints a line for the user to standard error.
+/// Prints a line for the user to standard error, in colour where a terminal shows it: `NO_COLOR` and `CLICOLOR_FORCE`
+/// decide before that.
 pub(crate) fn note(kind: Note, text: impl std::fmt::Display) {
-    line(kind.line(&text.to_string(), are_json()));
+    let _ = writeln!(anstream::stderr(), "{}", kind.line(&text.to_string(), are_json()));
 }
 
 /// Prints a line to standard error as it is. Nobody may be there to read it.
@@ -67,9 +81,12 @@ mod tests {
     #[test]
     fn a_note_is_a_line_or_an_object() {
         let text = "a \"b\": c";
-        assert_eq!(Note::Warning.line(text, false), "warning: a \"b\": c");
+        let shown =
+            |note: Note, text| anstream::adapter::strip_str(&note.line(text, false)).to_string();
+        assert_eq!(shown(Note::Warning, text), "warning: a \"b\": c");
         assert_eq!(Note::Info.line(text, false), text);
-        assert_eq!(Note::Warning.line("a\u{1b}", false), "warning: a\\u{1b}");
+        assert_eq!(shown(Note::Warning, "a\u{1b}"), "warning: a\\u{1b}");
+        assert_eq!(Note::Error.line("a", false), "\u{1b}[1m\u{1b}[31merror:\u{1b}[0m a");
         assert_eq!(Note::Error.line(text, true), r#"{"error":"a \"b\": c"}"#);
     }
 }

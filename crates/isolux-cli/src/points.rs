@@ -70,7 +70,7 @@ fn parse(text: &str, name: &str) -> Result<Vec<ProbePoint>, Failure> {
         problems.truncate(1);
         problems.push(format!("{name}: holds no point; write x y z nx ny nz, one a line"));
     }
-    if problems.is_empty() { Ok(points) } else { Err(Failure::BadInput(problems)) }
+    if problems.is_empty() { Ok(points) } else { Err(Failure::bad_inputs(problems)) }
 }
 
 fn point(line: &str) -> Result<ProbePoint, String> {
@@ -123,7 +123,7 @@ mod tests {
             panic!("no problem found");
         };
         for (problem, start) in problems.iter().zip(["line 2", "line 3", "line 4", "line 5"]) {
-            assert!(problem.starts_with(&format!("p.pts: {start}: ")), "{problem}");
+            assert!(problem.message.starts_with(&format!("p.pts: {start}: ")), "{problem:?}");
         }
         assert_eq!(problems.len(), 4);
     }

@@ -3,6 +3,7 @@
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ProbeFlags;
+use crate::maintained::Maintained;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::{map_file, points, source};
@@ -25,16 +26,16 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
         output.differs_from(&flags.points)?;
     }
     let points = points::read(&flags.points)?;
-    let (values, ambient_lx) = if map_file::is_map(&flags.source) {
-        let (values, ambient_lx) = read_map(flags, &points)?;
-        (values, Some(ambient_lx))
+    let (values, ambient_lx, light) = if map_file::is_map(&flags.source) {
+        read_map(flags, &points)?
     } else {
-        (trace_paths(flags, &points)?, None)
+        let (values, light) = trace_paths(flags, &points)?;
+        (values, 0.0, light)
     };
     let unknown = values.iter().filter(|v| v.is_none()).count();
     if unknown > 0 {
         let text = format!(
-            "{unknown} of {} on no surface with a known value; move points onto one that light comes to, or use --exact",
+            "{unknown} of {} on no surface with a known value; move points onto a lit one, or use --exact",
             counted(points.len(), "point lies", "points lie")
         );
         note(Note::Warning, text);
@@ -43,10 +44,13 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
         write_irradiances(output, &values)?;
     }
     if json {
-        let ambient_lx = ambient_lx.filter(|lx| *lx != 0.0);
+        let ambient_lx = Some(ambient_lx).filter(|lx| *lx != 0.0);
         let points = values.iter().map(|v| Reading::of(v.as_ref())).collect();
-        print_json(&Readings { points, ambient_lx })?;
-    } else if output.is_none() {
+        print_json(&Readings { points, maintained: light, ambient_lx })?;
+    } else if !light.are_initial() {
+        note(Note::Info, format!("values are {}", light.text()));
+    }
+    if !json && output.is_none() {
         let digits = flags.digits.map_or(Digits::ByError, Digits::Significant);
         print(HEADER)?;
         for (points, values) in points.chunks(ROWS_AT_ONCE).zip(values.chunks(ROWS_AT_ONCE)) {
@@ -70,8 +74,11 @@ fn write_irradiances(output: &OutputPath, values: &Values) -> Result<(), Failure
     output.write(irradiance_lines(known.iter().map(Illuminance::total_lx)).as_bytes())
 }
 
-/// The values, and how much of each is ambient light.
-fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<(Values, f64), Failure> {
+/// The values, how much of each is ambient light, and whether they are maintained.
+fn read_map(
+    flags: &ProbeFlags,
+    points: &[ProbePoint],
+) -> Result<(Values, f64, Maintained), Failure> {
     let unused = [("--paths", flags.paths.is_some()), ("--seed", flags.seed.is_some())];
     refuse(flags, &unused, "a map, whose points are not traced; leave it out or give a scene")?;
     let (scene, map) = map_file::read(&flags.source)?;
@@ -88,10 +95,11 @@ fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<(Values, f64), 
             reader.probe(*at)
         }
     };
-    Ok((points.par_iter().map(read).collect(), map.ambient_lx().luminance()))
+    let values = points.par_iter().map(read).collect();
+    Ok((values, map.ambient_lx().luminance(), Maintained::of(&scene)))
 }
 
-fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Values, Failure> {
+fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<(Values, Maintained), Failure> {
     let unused = [("--exact", flags.exact), ("--interpolated", flags.interpolated)];
     refuse(flags, &unused, "a scene, which has no map to read; leave it out or give a map")?;
     let scene = source::read_scene(&flags.source)?;
@@ -107,7 +115,8 @@ fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Values, Fail
         );
     }
     let settings = settings(flags);
-    Ok(points.par_iter().map(|at| Some(tracer.estimate(*at, &settings))).collect())
+    let values = points.par_iter().map(|at| Some(tracer.estimate(*at, &settings))).collect();
+    Ok((values, Maintained::of(&scene)))
 }
 
 /// Flags that the source has no use for are mistakes.
@@ -134,6 +143,8 @@ fn settings(flags: &ProbeFlags) -> ExactSettings {
 #[derive(Serialize)]
 struct Readings {
     points: Vec<Reading>,
+    #[serde(flatten)]
+    maintained: Maintained,
     /// How much of the indirect light of every point is an ambient term in place of what was not
     /// computed, lx.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -4,6 +4,7 @@ use crate::flags::ProgressStyle;
 use crate::meter::bar;
 use crate::notes::{self, Note, note};
 use crate::quantity::{show_count, show_seconds, show_share};
+use crate::reach;
 use indicatif::ProgressBar;
 use isolux::engine::{Progress, Stage};
 use isolux_formats::counted;
@@ -101,9 +102,15 @@ fn line(progress: &Progress) -> String {
     if let Some(target) = progress.target {
         parts.push(format!("target {}", show_share(target)));
     }
-    if let Some(p) = progress.prediction {
+    if let Some(long) = reach::left(progress) {
+        parts.push(long);
+    } else if let Some(p) = progress.prediction {
         let left = |finish_s: f64| show_seconds((finish_s - progress.elapsed_s).max(0.0));
-        let (likely, early, late) = (left(p.finish_s), left(p.earliest_s), left(p.latest_s));
+        let (likely, early) = (left(p.finish_s), left(p.earliest_s));
+        let late = match reach::is_beyond_a_day(p.latest_s - progress.elapsed_s) {
+            true => "more than a day".to_owned(),
+            false => left(p.latest_s),
+        };
         parts.push(match () {
             () if p.latest_s <= progress.elapsed_s => "about to end".to_owned(),
             () if p.finish_s <= progress.elapsed_s => format!("up to {late} left"),
@@ -189,6 +196,12 @@ mod tests {
         assert!(at(4.5).contains(", 0.50 s left (up to 3.5 s), "), "{}", at(4.5));
         assert!(at(5.5).contains(", up to 2.5 s left, "), "{}", at(5.5));
         assert!(at(8.5).contains(", about to end, "), "{}", at(8.5));
+        let long = Prediction { finish_s: 1e6, earliest_s: 1e5, latest_s: 1e7 };
+        let long = line(&Progress { prediction: Some(long), ..progress.clone() });
+        assert!(long.contains(", more than a day left, a day reaches about 3.4 %, "), "{long}");
+        let late = Prediction { latest_s: 1e7, ..progress.prediction.unwrap() };
+        let late = line(&Progress { prediction: Some(late), ..progress.clone() });
+        assert!(late.contains(", 3.0 s left (2.0 s to more than a day), "), "{late}");
         assert_eq!(share_done(&progress), 0.4);
         assert_eq!(share_done(&Progress { prediction: None, ..progress }), 0.0);
     }

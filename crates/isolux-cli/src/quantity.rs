@@ -226,7 +226,7 @@ pub(crate) fn show_bytes(bytes: u64) -> String {
     }
 }
 
-/// A time for reading: `0.35 s`, `12 s`, `5 min 20 s`, `3 h 5 min`.
+/// A time for reading: `0.35 s`, `12 s`, `5 min 20 s`, `3 h 5 min`, `12 days`, `more than a year`.
 pub(crate) fn show_seconds(seconds: f64) -> String {
     let whole = seconds.round();
     match seconds {
@@ -234,6 +234,8 @@ pub(crate) fn show_seconds(seconds: f64) -> String {
         s if s < 10.0 => format!("{s:.1} s"),
         s if s < 120.0 => format!("{whole} s"),
         s if s < 7200.0 => format!("{} min {} s", (whole / 60.0).floor(), whole % 60.0),
+        s if s > 365.0 * 86_400.0 => "more than a year".to_owned(),
+        s if s >= 4.0 * 86_400.0 => format!("{} days", (s / 86_400.0).round()),
         _ => format!("{} h {} min", (whole / 3600.0).floor(), (whole % 3600.0 / 60.0).floor()),
     }
 }
@@ -364,9 +366,14 @@ mod tests {
         assert_eq!(show_bytes(3 << 29), "1.5 GiB");
         assert_eq!(show_bytes(u64::MAX), "16.0 EiB");
         assert_eq!(show_bytes(12), "12 B");
-        for (seconds, text) in
-            [(0.123, "0.12 s"), (12.3, "12 s"), (320.0, "5 min 20 s"), (11_100.0, "3 h 5 min")]
-        {
+        for (seconds, text) in [
+            (0.123, "0.12 s"),
+            (12.3, "12 s"),
+            (320.0, "5 min 20 s"),
+            (11_100.0, "3 h 5 min"),
+            (1e6, "12 days"),
+            (1e9, "more than a year"),
+        ] {
             assert_eq!(show_seconds(seconds), text);
         }
         assert_eq!(show_share(0.0095), "0.95 %");

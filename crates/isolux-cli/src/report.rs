@@ -5,11 +5,13 @@ use crate::audit;
 use crate::console::facts;
 use crate::kept::LessKnown;
 use crate::lightmap;
+use crate::maintained::Maintained;
 use crate::output::OutputPath;
-use crate::quantity::{show_count, show_seconds, show_share};
+use crate::quantity::{show_count, show_seconds, show_share, significant};
 use crate::request::method_name;
 use isolux::engine::reference_lx;
-use isolux::map::{Audit, IlluminationMap};
+use isolux::map::{Audit, IlluminationMap, KnownSurface};
+use isolux::scene::Scene;
 use serde::Serialize;
 
 /// What `solve --json` prints.
@@ -26,6 +28,11 @@ pub(crate) struct Report {
     accuracy_interpolated: Option<f64>,
     /// What these are shares of.
     reference_lx: f64,
+    /// The area that they are a mean over, and the lit part of it.
+    surface_m2: f64,
+    lit_surface_m2: f64,
+    #[serde(flatten)]
+    maintained: Maintained,
     accuracy_audited: Option<f64>,
     accuracy_audited_low: Option<f64>,
     accuracy_audited_high: Option<f64>,
@@ -54,8 +61,13 @@ pub(crate) struct Report {
 
 impl Report {
     /// Of a map, the time it took, and where it was written.
-    pub(crate) fn of(map: &IlluminationMap, time_s: f64, output: &OutputPath) -> Self {
+    pub(crate) fn of(
+        (scene, map): (&Scene, &IlluminationMap),
+        time_s: f64,
+        output: &OutputPath,
+    ) -> Self {
         let from = &map.provenance;
+        let KnownSurface { all_m2, lit_m2 } = map.known_surface();
         Self {
             scene: from.scene.clone(),
             method: method_name(from.method),
@@ -67,6 +79,9 @@ impl Report {
             accuracy_bias: from.accuracy.map(|a| a.bias),
             accuracy_interpolated: from.accuracy.map(|a| a.interpolated),
             reference_lx: reference_lx(map),
+            surface_m2: all_m2,
+            lit_surface_m2: lit_m2,
+            maintained: Maintained::of(scene),
             accuracy_audited: from.audit.as_ref().map(|a| a.error.value),
             accuracy_audited_low: from.audit.as_ref().map(|a| a.error.low),
             accuracy_audited_high: from.audit.as_ref().map(|a| a.error.high),
@@ -106,6 +121,13 @@ impl Report {
         Self { map: String::new(), ..self }
     }
 
+    /// What the error is a share of, and over which area.
+    fn relative_to(&self) -> String {
+        let [lx, lit_m2, all_m2] =
+            [self.reference_lx, self.lit_surface_m2, self.surface_m2].map(|of| significant(of, 3));
+        format!("{lx} lx over {all_m2} m2 of surface, of which {lit_m2} m2 are lit")
+    }
+
     /// For people.
     pub(crate) fn text(&self) -> String {
         let share = |s: Option<f64>| s.map_or("not known".to_owned(), show_share);
@@ -123,9 +145,11 @@ impl Report {
             ("error", reached),
             ("  from noise", share(self.accuracy_statistical)),
             ("  from interpolation", share(self.accuracy_discretization)),
-            ("  from lookups and light given up", share(self.accuracy_bias)),
+            ("  from light at ray ends and cut-off paths", share(self.accuracy_bias)),
+            ("  relative to", self.relative_to()),
             ("  audited", self.audit.as_ref().map_or("no".to_owned(), audit::line)),
             ("error of the interpolated map", share(self.accuracy_interpolated)),
+            ("values", self.maintained.text()),
             ("time", show_seconds(self.time_s)),
             ("receivers", self.receivers.to_string()),
             ("increments", self.increments.to_string()),
@@ -135,7 +159,7 @@ impl Report {
             all.push(("light unshot", show_share(unshot)));
         }
         if let Some(lost) = self.flux_lost.as_ref().and_then(FluxLost::text) {
-            all.push(("light that comes to no surface", lost));
+            all.push(("light that reaches no surface", lost));
         }
         let lightmap = self.lightmap.as_ref().map(lightmap::Report::text);
         facts(&all) + &lightmap.unwrap_or_default()

@@ -128,7 +128,7 @@ fn one(
     if outcome == Outcome::Done && !finished {
         saved_run::keep(output, &solved.solution.state, true)?;
     }
-    let report = Report::of(&solved.solution.map, solved.solution.time_s, output);
+    let report = Report::of((scene, &solved.solution.map), solved.solution.time_s, output);
     let report = report.with_flux_lost(flux_lost);
     Ok(Written { outcome, report: report.with_lightmap(lightmap).instead_of(less) })
 }
@@ -171,7 +171,7 @@ fn earlier(
         time_s: 0.0,
         lacked_time: false,
     };
-    Some(Solved { solution, outcome: Outcome::Done })
+    Some(Solved { solution, outcome: Outcome::Done, beyond: None })
 }
 
 /// Writes the map anew, as texels. Interrupted it leaves the map at vertices, which is written already: hours of work

@@ -7,18 +7,22 @@ use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::{show_bytes, show_seconds, show_share, significant};
+use crate::reach;
 use crate::saved_run::{self, Keeper};
 use crate::serving::Live;
 use crate::shown;
 use crate::source;
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
-use isolux::map::{HotSpots, IlluminationMap, Method};
+use isolux::map::{HotSpots, IlluminationMap, KnownSurface, Method};
 use isolux::scene::Scene;
 use std::path::Path;
 use std::time::Duration;
 
 /// A time limit passed by this factor is told.
 const MUCH_LONGER: f64 = 1.25;
+
+/// The lit share of the surface up to which the rest is told of.
+const MOSTLY_DARK: f64 = 0.1;
 
 /// What a run would need.
 pub(crate) fn estimate(
@@ -35,6 +39,8 @@ pub(crate) struct Solved {
     pub solution: Solution,
     /// Done, stopped by a limit, or interrupted.
     pub outcome: Outcome,
+    /// Why it was stopped, if its accuracy would have taken more than a day.
+    pub beyond: Option<String>,
 }
 
 /// What is computed from what, and where it goes.
@@ -61,8 +67,12 @@ pub(crate) fn solve(
     if live.is_some_and(|live| live.begins_anew()) {
         return Ok(solved);
     }
+    if let Some(why) = &solved.beyond {
+        note(Note::Warning, why);
+    }
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
     tell_of_hot_spots(&solved.solution.map);
+    tell_of_dark_surface(&solved.solution.map);
     tell_of_time(&solved.solution, run.request.time_limit);
     tell_of_audit(&solved.solution.map);
     tell_of_end(&solved, run.request);
@@ -76,21 +86,22 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
     let is_dark = || map.values.iter().flatten().all(|value| value.illuminance_lx() == 0.0);
     let ends_itself = matches!(solved.outcome, Outcome::StoppedEarly)
         && request.radiosity.unshot.is_none()
+        && solved.beyond.is_none()
         && solved.solution.time_s < limit_s
         && !map.provenance.audit.as_ref().is_some_and(|audit| audit.contradicts);
     let what = match (map.provenance.accuracy, request.accuracy) {
         (Some(_), _) if map.provenance.complete && is_dark() => {
-            let what = "no light comes to any surface; `isolux check` names luminaires that light nothing";
+            let what = "no light reaches any surface; `isolux check` names luminaires that light nothing";
             return note(Note::Warning, what);
         }
         (None, _) if ends_itself => {
-            "the error of the map is not known: light on paths that were given up, among mirrors or surfaces that \
-             absorb next to nothing, may be more than all that came to a surface; `isolux check` names luminaires that \
-             light nothing, and materials whose reflectance is to be lowered"
+            "the error of the map is not known: paths between mirrors, or surfaces that absorb almost nothing, were cut off, \
+             and may have carried more light than all that reached a surface; `isolux check` names luminaires that \
+             light nothing, and materials whose reflectance should be lower"
                 .to_owned()
         }
         (Some(accuracy), Some(asked)) if ends_itself && accuracy.of_elements() > asked => format!(
-            "ended as more of the same would not help: with {} receivers interpolation and lookups alone err by {}{}, \
+            "stopped because more rays would not help: with {} receivers the error of interpolation alone is {}{}, \
              and {}{}",
             map.values.len(),
             show_share(accuracy.of_elements()),
@@ -100,11 +111,11 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
                 ""
             },
             if 2 * map.values.len() > request.most_receivers() {
-                "finer elements would take more than --max-memory: raise it, or ask for no more than that"
+                "finer elements would need more than --max-memory: raise it, or ask for an accuracy no finer than that"
             } else if solved.solution.lacked_time {
                 "finer elements would take longer than is left of --time-limit: allow more"
             } else {
-                "finer elements were not found to err by less; ask for no more than that"
+                "finer elements did not reduce it; ask for an accuracy no finer than that"
             },
             if request.method == Method::Hybrid { "" } else { ", or use --method hybrid" }
         ),
@@ -126,7 +137,7 @@ fn tell_of_audit(map: &IlluminationMap) {
     note(
         Note::Warning,
         format!(
-            "the map is not as good as reported: complete paths that know nothing of it find {found} where {told} was \
+            "the error of the map is larger than reported: the audit finds {found} where {told} was \
              reported{where_}; `isolux audit` shows more"
         ),
     );
@@ -139,7 +150,7 @@ fn tell_of_time(solution: &Solution, limit: Option<Duration>) {
         note(
             Note::Info,
             format!(
-                "the time limit of {} was passed: to look once at {} receivers takes {} here",
+                "the time limit of {} was exceeded: one increment for {} receivers takes {} here",
                 show_seconds(limit_s),
                 solution.map.elements.vertices().len(),
                 show_seconds(solution.time_s)
@@ -165,19 +176,37 @@ fn tell_of_bare_map(map: &IlluminationMap, hoped: f64) {
 fn tell_of_hot_spots(map: &IlluminationMap) {
     let accuracy = map.provenance.accuracy;
     let Some(spots) = accuracy.and_then(|_| map.hot_spots()) else { return };
-    let HotSpots { share, others_lx, brightest: (at, lx) } = spots;
+    let HotSpots { share, others_lx, others_m2, brightest: (at, lx) } = spots;
     note(
         Note::Info,
         format!(
-            "{} of all light lies on a hundredth of the surface, up to {} lx at ({:.3}, {:.3}, {:.3}): the error of the \
-             scene is relative to that, too, and elsewhere, where there are {} lx in the mean, errors are larger beside \
-             the light; readings have errors of their own: ask for a finer accuracy if those are too large",
+            "{} of all light lies on a hundredth of the lit surface, up to {} lx at ({:.3}, {:.3}, {:.3}), and the error of \
+             the scene is relative to that, too; on the other {} m2 that are lit the mean is {} lx, and errors are larger \
+             relative to that; every reading has a standard error of its own: ask for a finer accuracy if those are too large",
             show_share(share),
             significant(lx, 3),
             at.x,
             at.y,
             at.z,
+            significant(others_m2, 3),
             significant(others_lx, 3)
+        ),
+    );
+}
+
+/// Errors are relative to the root mean square over all of the surface, which wide ground without light makes small.
+fn tell_of_dark_surface(map: &IlluminationMap) {
+    let KnownSurface { all_m2, lit_m2 } = map.known_surface();
+    if map.provenance.accuracy.is_none() || lit_m2 <= 0.0 || lit_m2 > MOSTLY_DARK * all_m2 {
+        return;
+    }
+    let [lit, all] = [lit_m2, all_m2].map(|m2| significant(m2, 3));
+    note(
+        Note::Info,
+        format!(
+            "{lit} of {all} m2 of surface are lit: the error of the scene is relative to {} lx, the root mean square over \
+             all of it, and is smaller relative to the light on the lit surface; leave out surfaces that get no light, or ask for less",
+            significant(engine::reference_lx(map), 3)
         ),
     );
 }
@@ -206,14 +235,24 @@ fn follow(
     failure: impl Fn(SolveError) -> Failure,
 ) -> Result<Solved, Failure> {
     let interrupt = Interrupt::install()?;
+    // Whoever gives a time limit, or watches, decides himself.
+    let is_open = request.time_limit.is_none() && live.is_none();
+    let mut beyond = None;
     let solved = engine::solve_looked_at(scene, request, saved, &mut |progress, so_far| {
         reporter.show(progress);
         if let Some(keeper) = &mut keeper {
             keeper.look(so_far);
         }
+        if is_open && beyond.is_none() {
+            beyond = reach::beyond(progress);
+        }
         let is_interrupted = || interrupt.is_requested();
         let wanted = live.as_mut().map(|live| live.look(progress, so_far, &is_interrupted));
-        if is_interrupted() { Watch::Stop } else { wanted.unwrap_or(Watch::Continue) }
+        if is_interrupted() || beyond.is_some() {
+            Watch::Stop
+        } else {
+            wanted.unwrap_or(Watch::Continue)
+        }
     });
     reporter.finish();
     let solution = solved.map_err(failure)?;
@@ -223,7 +262,7 @@ fn follow(
         (false, true) => Outcome::Interrupted,
         (false, false) => Outcome::StoppedEarly,
     };
-    Ok(Solved { solution, outcome })
+    Ok(Solved { solution, outcome, beyond: beyond.filter(|_| outcome == Outcome::StoppedEarly) })
 }
 
 /// Sorted by who can mend it.

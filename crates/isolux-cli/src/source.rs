@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::notes::{Note, note};
 use crate::origin::{Extent, Remoteness};
-use crate::shown::plain;
+use crate::trouble::Trouble;
 use isolux::scene::{Scene, SceneParts, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
 use isolux_formats::{Loaded, Problem, Problems};
@@ -71,10 +71,7 @@ pub(crate) fn show_warnings(warnings: &[Problem]) {
 
 /// Problems of a file are bad input.
 pub(crate) fn bad_file(problems: Problems) -> Failure {
-    // A line each, whatever names they hold.
-    Failure::BadInput(
-        problems.0.iter().map(|problem| plain(&problem.to_string()).into_owned()).collect(),
-    )
+    Failure::BadInput(problems.0.iter().map(Trouble::of_file).collect())
 }
 
 /// A scene without luminaires is bad input. Materials that emit are none where no surface has an area.

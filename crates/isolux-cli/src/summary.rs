@@ -61,7 +61,7 @@ pub(crate) fn text(lit: &[Lit]) -> String {
     let rows: Vec<Vec<String>> = lit.iter().take(MAX_SHOWN).map(row).collect();
     let mut text = table(&["surface", "m2", "mean lx", "min lx", "max lx", "known"], &rows);
     if lit.iter().any(|l| l.unlit_side_m2.is_some()) {
-        text += "sides that no light comes to, of surfaces lit on the other, are left out\n";
+        text += "of surfaces lit on one side, only that side counts\n";
     }
     if lit.len() > MAX_SHOWN {
         text += &format!("and {} smaller ones; --json lists all\n", lit.len() - MAX_SHOWN);

@@ -28,7 +28,7 @@ describe('what a run says', () => {
     expect(errorText({ error: null, target: null })).toEqual({ now: 'not known yet', of: '' });
     expect(phaseText({ phase: 'increments', paused: true })).toBe('Paused (gathering light)');
     expect(auditText({ error: 0.009, low: 0.004, high: 0.012, told: 0.008, places: 240, contradicts: false }))
-      .toBe('0.90 % (0.40 to 1.2 %), by 240 places: agrees with the 0.80 % told');
+      .toBe('0.90 % (0.40 to 1.2 %), by 240 places: agrees with the reported error of 0.80 %');
   });
   it('writes lengths of time', () => {
     expect([0.451, 9.21, 48.2, 125, 11400].map(seconds)).toEqual(['0.45 s', '9.2 s', '48 s', '2 min 5 s', '3 h 10 min']);

@@ -73,11 +73,11 @@ export function errorText(state: Pick<LiveState, 'error' | 'target'> & { phase?:
   };
 }
 
-/** `0.9 % (0.4 to 1.2 %), by 240 places: agrees with the 0.8 % told`. */
+/** `0.9 % (0.4 to 1.2 %), by 240 places: agrees with the reported error of 0.8 %`. */
 export function auditText(audit: NonNullable<LiveState['audit']>): string {
   const verdict = audit.contradicts ? 'contradicts' : 'agrees with';
   const range = `${significant(100 * audit.low, 2)} to ${share(audit.high)}`;
-  return `${share(audit.error)} (${range}), by ${audit.places} places: ${verdict} the ${share(audit.told)} told`;
+  return `${share(audit.error)} (${range}), by ${audit.places} places: ${verdict} the reported error of ${share(audit.told)}`;
 }
 
 /** What is lost by another target. */

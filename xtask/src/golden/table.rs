@@ -24,7 +24,7 @@ fn changed(before: &Value, now: &Value) -> String {
         _ => "?".to_owned(),
     };
     format!(
-        "CHANGED: times {} rays, {} receivers, {} error told",
+        "CHANGED: times {} rays, {} receivers, {} reported error",
         times("rays"),
         times("receivers"),
         times("accuracy_reached")

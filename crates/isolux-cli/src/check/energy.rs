@@ -53,7 +53,8 @@ impl Energy {
         }
     }
 
-    pub(super) fn findings(&self) -> Vec<Finding> {
+    /// What is strange about the light, where so much of the surface is lit.
+    pub(super) fn findings(&self, lit_m2: f64) -> Vec<Finding> {
         let mut found = Vec::new();
         if self.flux_lm <= 0.0 && self.parallel == 0 {
             found.push(Finding::warning(
@@ -62,11 +63,11 @@ impl Energy {
                 "name the file in a scene.toml and add a [[luminaire]], or let a material emit",
             ));
         }
-        let brightness = if self.area_m2 > 0.0 { self.flux_lm / self.area_m2 } else { 0.0 };
+        let brightness = if lit_m2 > 0.0 { self.flux_lm / lit_m2 } else { 0.0 };
         if brightness > GLARING_LX || (brightness > 0.0 && brightness < DIM_LX) {
             found.push(Finding::warning(
                 "luminaires",
-                format!("{} lm for each m2 of surface", significant(brightness, 2)),
+                format!("{} lm for each m2 of lit surface", significant(brightness, 2)),
                 "check their unit: candela and lumen, not watt",
             ));
         }
@@ -129,8 +130,8 @@ mod tests {
 
     #[test]
     fn scenes_without_light_and_with_watts_for_lumens_are_found() {
-        assert!(energy(|_| {}).findings().is_empty());
-        assert_eq!(energy(|parts| parts.luminaires.clear()).findings().len(), 1);
+        assert!(energy(|_| {}).findings(600.0).is_empty());
+        assert_eq!(energy(|parts| parts.luminaires.clear()).findings(0.0).len(), 1);
         for factor in [1e-6, 1e6] {
             let scaled = energy(|parts| {
                 for luminaire in &mut parts.luminaires {
@@ -139,7 +140,7 @@ mod tests {
                     }
                 }
             });
-            assert_eq!(scaled.findings().len(), 1, "{factor}");
+            assert_eq!(scaled.findings(600.0).len(), 1, "{factor}");
         }
     }
 }

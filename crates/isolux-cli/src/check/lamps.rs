@@ -194,7 +194,7 @@ fn finding(luminaire: &Luminaire, trouble: Trouble) -> Finding {
              diffuse reflectance",
         ),
         Trouble::ShutOut => (
-            "comes to nothing but black backs and surfaces that shine themselves",
+            "reaches only black backs and emitting surfaces",
             "what stands for the sky keeps the sun out: leave it open on that side, or away",
         ),
         Trouble::LightsBlackBacks => (

@@ -23,7 +23,7 @@ pub(super) struct Light {
     /// Mean illuminance of the places that light comes to, lx; none where no place is lit.
     mean_illuminance_lx: Option<f64>,
     /// Area of the sides of surfaces that light comes to, m2.
-    lit_m2: f64,
+    pub(super) lit_m2: f64,
     /// Whether there may be light that is left out.
     #[serde(skip)]
     leaves_some_out: bool,
@@ -34,7 +34,7 @@ impl Light {
         let sides = Sides::of(scene);
         let luminaires = scene.luminaires().len() + scene.area_luminaires().len();
         let count = (MOST_LOOKS / luminaires.max(1)).clamp(FEWEST_PLACES, PLACES);
-        if luminaires == 0 || sides.total_m2() <= 0.0 {
+        if luminaires == 0 || sides.total() <= 0.0 {
             return Self::default();
         }
         let (tracer, sequence) = (PathTracer::new(scene), Sequence::new(Key::new(2)));
@@ -64,7 +64,7 @@ impl Light {
                     true => "; light by glass, gloss or curved mirrors not counted",
                     false => "",
                 };
-                format!("about {lx} lx on {lit} m2 that light comes to{beside}")
+                format!("about {lx} lx on {lit} m2 of lit surface{beside}")
             }
             (None, true) => {
                 "not known: if light comes, then by glass, gloss or curved mirrors".to_owned()
@@ -74,10 +74,12 @@ impl Light {
     }
 }
 
-/// The sides of triangles that carry light, and running sums of their areas.
+/// The sides of triangles that carry light, with the weights that places are shared out by.
 struct Sides {
     all: Vec<(u32, bool)>,
-    sums_m2: Vec<f64>,
+    areas_m2: Vec<f64>,
+    /// Running sums of the weights.
+    sums: Vec<f64>,
 }
 
 impl Sides {
@@ -86,37 +88,51 @@ impl Sides {
             .flat_map(|triangle| [false, true].map(|back| (triangle, back)));
         let all: Vec<(u32, bool)> =
             sides.filter(|&(triangle, back)| carries_map(scene, triangle, back)).collect();
-        let mut sum_m2 = 0.0;
-        let sums_m2 = all.iter().map(|&(triangle, _)| {
-            sum_m2 += scene.triangle(triangle).area();
-            sum_m2
+        let areas_m2: Vec<f64> =
+            all.iter().map(|&(triangle, _)| scene.triangle(triangle).area()).collect();
+        // Half of the places are shared out by area, half evenly among shapes: wide ground around a room leaves places to it.
+        let mut of_shapes = vec![0.0; scene.shape_names().len()];
+        let shape = |side: usize| scene.shape_of(all[side].0) as usize;
+        areas_m2.iter().enumerate().for_each(|(side, m2)| of_shapes[shape(side)] += m2);
+        let shapes = of_shapes.iter().filter(|m2| **m2 > 0.0).count() as f64;
+        let all_m2: f64 = of_shapes.iter().sum();
+        let mut sum = 0.0;
+        let sums = areas_m2.iter().enumerate().map(|(side, m2)| {
+            let alone = if *m2 > 0.0 { m2 / (shapes * of_shapes[shape(side)]) } else { 0.0 };
+            sum += 0.5 * (m2 / all_m2 + alone);
+            sum
         });
-        Self { sums_m2: sums_m2.collect(), all }
+        Self { sums: sums.collect(), areas_m2, all }
     }
 
-    fn total_m2(&self) -> f64 {
-        self.sums_m2.last().copied().unwrap_or(0.0)
+    fn total(&self) -> f64 {
+        self.sums.last().copied().unwrap_or(0.0)
     }
 
-    /// The side that one of so many places spread evenly over all of them lies on.
+    fn weight(&self, side: usize) -> f64 {
+        self.sums[side] - side.checked_sub(1).map_or(0.0, |before| self.sums[before])
+    }
+
+    /// The side that one of so many places spread evenly over all weights lies on.
     fn at(&self, index: usize, count: usize) -> usize {
-        let sum_m2 = (index as f64 + 0.5) / count as f64 * self.total_m2();
-        self.sums_m2.partition_point(|&sum| sum <= sum_m2).min(self.all.len() - 1)
+        let sum = (index as f64 + 0.5) / count as f64 * self.total();
+        self.sums.partition_point(|&of| of <= sum).min(self.all.len() - 1)
     }
 
     /// What each of the places stands for, given the sides that they lie on: an equal part of its side, or of all sides
     /// together that are too small to have a place for certain. So a room has the area of its walls, whatever else there is.
     fn areas_m2(&self, on: &[usize]) -> Vec<f64> {
-        let even_m2 = self.total_m2() / on.len() as f64;
-        let of_side =
-            |side: usize| self.sums_m2[side] - side.checked_sub(1).map_or(0.0, |s| self.sums_m2[s]);
-        let is_small = |side: usize| of_side(side) < even_m2;
-        let small_m2: f64 = (0..self.all.len()).filter(|&s| is_small(s)).map(of_side).sum();
-        let small = on.iter().filter(|&&side| is_small(side)).count();
+        let even = self.total() / on.len() as f64;
+        let is_small = |side: usize| self.weight(side) < even;
+        let all_small = (0..self.all.len()).filter(|&side| is_small(side));
+        let small_m2: f64 = all_small.map(|side| self.areas_m2[side]).sum();
+        // Small sides of wide shapes stand for more.
+        let by_weight = |side: usize| self.areas_m2[side] / self.weight(side);
+        let small: f64 = on.iter().filter(|&&side| is_small(side)).map(|&s| by_weight(s)).sum();
         let places = on.chunk_by(|a, b| a == b);
         let part = |same: &[usize]| match is_small(same[0]) {
-            true => small_m2 / small as f64,
-            false => of_side(same[0]) / same.len() as f64,
+            true => small_m2 * by_weight(same[0]) / small,
+            false => self.areas_m2[same[0]] / same.len() as f64,
         };
         places.flat_map(|same| std::iter::repeat_n(part(same), same.len())).collect()
     }
@@ -193,6 +209,23 @@ mod tests {
         assert!((with_more.lit_m2 - 601.0).abs() < 1.5, "{with_more:?}");
     }
 
+    #[test]
+    fn wide_ground_does_not_hide_a_room() {
+        let around = light(|parts| {
+            parts.materials.push(Material::two_sided("ground", Finish::diffuse(Rgb::grey(0.2))));
+            parts.shapes.push(Shape {
+                positions: vec![[-1e3, -1e3, -6.0], [1e3, -1e3, -6.0], [0.0, 2e3, -6.0]],
+                triangles: vec![[0, 1, 2]],
+                material: parts.materials.len() as u32 - 1,
+                ..Shape::default()
+            });
+        });
+        let alone = light(|_| {});
+        let [around_lx, alone_lx] = [&around, &alone].map(|l| l.mean_illuminance_lx.unwrap());
+        assert!((around_lx / alone_lx - 1.0).abs() < 0.1, "{around:?}");
+        assert!((around.lit_m2 - 600.0).abs() < 1e-6, "{around:?}");
+    }
+
     /// A tetrahedron of glass about the luminaire.
     fn put_into_glass(parts: &mut SceneParts) {
         let glass = Dielectric { ior: 1.5, transmittance: Rgb::WHITE, thin: false };
@@ -209,7 +242,7 @@ mod tests {
 
     #[test]
     fn light_through_glass_is_not_taken_for_none() {
-        assert!(light(|_| {}).shown().ends_with(" lx on 600 m2 that light comes to"));
+        assert!(light(|_| {}).shown().ends_with(" lx on 600 m2 of lit surface"));
         let in_glass = light(put_into_glass).shown();
         // Paths find what walls reflect of it, and leave out what the glass throws on them.
         assert!(in_glass.starts_with("about "), "{in_glass}");

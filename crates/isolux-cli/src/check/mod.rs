@@ -62,12 +62,16 @@ impl Audit {
         let extent = Extent::of(scene);
         let borders = borders::Borders::of(scene);
         let energy = energy::Energy::of(scene);
+        let light = light::Light::of(scene);
         let estimate = Estimate::of(scene, &SolveRequest::default());
         findings.extend(match scene.triangle_count() {
             0 => of_scene(source::NO_AREA),
-            _ => {
-                [extent::findings(&extent, source), borders.findings(), energy.findings()].concat()
-            }
+            _ => [
+                extent::findings(&extent, source),
+                borders.findings(),
+                energy.findings(light.lit_m2),
+            ]
+            .concat(),
         });
         if matches!(estimate, Err(SolveError::NoReceiver)) && scene.triangle_count() > 0 {
             findings.extend(of_scene(source::NO_MAP));
@@ -84,7 +88,7 @@ impl Audit {
             emitting_surfaces: scene.area_luminaires().len(),
             luminous_flux_lm: energy.flux_lm,
             mean_reflectance: energy.mean_reflectance,
-            light: light::Light::of(scene),
+            light,
             open_edges: borders.open,
             estimate: estimate.ok(),
             findings,

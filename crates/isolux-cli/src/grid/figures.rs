@@ -2,6 +2,7 @@
 
 use super::result::GridResult;
 use crate::console::{facts, table};
+use crate::maintained::Maintained;
 use crate::quantity::{show_share, significant};
 use crate::rounded::to_error;
 use crate::shown::name;
@@ -33,7 +34,8 @@ fn interval(of: Figure, written: fn(Figure, f64) -> String) -> String {
 }
 
 /// What people read: of one grid a list, of several tables.
-pub(super) fn text(results: &[GridResult]) -> String {
+pub(super) fn text(results: &[GridResult], light: Maintained) -> String {
+    let row = |result: &GridResult| row(result, light);
     if let [result] = results {
         return facts(&HEADER.into_iter().zip(row(result)).collect::<Vec<_>>());
     }
@@ -51,11 +53,11 @@ const HEADER: [&str; 11] = [
     "spacing, m",
     "direct, lx",
     "indirect, lx",
-    "maintained",
+    "values",
 ];
 
 /// In the order of the header.
-fn row(result: &GridResult) -> Vec<String> {
+fn row(result: &GridResult, light: Maintained) -> Vec<String> {
     let grid = &result.read.grid;
     let mut row = vec![name(&grid.name)];
     row.extend(match &result.read.figures {
@@ -76,6 +78,9 @@ fn row(result: &GridResult) -> Vec<String> {
         Some(f) => [f.direct_lx, f.indirect_lx].map(|lx| rounded(f.mean_lx, lx)),
         None => ["-", "-"].map(str::to_owned),
     });
-    row.push(show_share(grid.maintenance_factor));
+    row.push(match grid.maintenance_factor {
+        1.0 => light.text(),
+        factor => format!("maintained, {} of the initial ones", show_share(factor)),
+    });
     row
 }

@@ -76,13 +76,13 @@ pub(super) fn warn(
     let unknown = values.iter().filter(|value| value.is_none()).count();
     if unknown > 0 {
         let are = counted(all, "point is", "points are");
-        warn(format!("{unknown} of {are} left out, within something or where no light comes"));
+        warn(format!("{unknown} of {are} left out, inside an object or where no light reaches"));
     }
     let is_dark = values.iter().flatten().all(|value| value.illuminance_lx() == 0.0);
     let dark = outside.count();
     if is_dark && unknown == 0 {
         warn(
-            "no light comes to any of its points; check its place, and that `u x v` of its sides is the way they are to face"
+            "no light reaches any of its points; check its place, and that `u x v` of its sides is the way they are to face"
                 .into(),
         );
     } else if dark > 0 {

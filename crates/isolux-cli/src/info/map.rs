@@ -4,6 +4,7 @@ use super::scene::list;
 use crate::audit;
 use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
+use crate::maintained::Maintained;
 use crate::map_facts;
 use crate::quantity::{show_share, significant};
 use crate::shown::name;
@@ -18,6 +19,7 @@ pub(super) fn show(scene: &Scene, map: &IlluminationMap, json: bool) -> Result<(
         kind: "map",
         scene_unchanged: scene.hash() == map.provenance.scene_hash,
         provenance: &map.provenance,
+        maintained: Maintained::of(scene),
         receivers: map.values.len(),
         unknown: map.values.iter().filter(|value| value.is_none()).count(),
         cameras: scene.cameras().iter().map(|c| c.name.clone()).collect(),
@@ -33,6 +35,8 @@ struct Contents<'a> {
     /// Whether the scene inside is the one that was solved.
     scene_unchanged: bool,
     provenance: &'a Provenance,
+    #[serde(flatten)]
+    maintained: Maintained,
     receivers: usize,
     unknown: usize,
     cameras: Vec<String>,
@@ -44,6 +48,7 @@ impl Contents<'_> {
         let from = self.provenance;
         let mut all = vec![("map of", name(&from.scene))];
         all.extend(map_facts::of(from, (self.receivers, self.unknown)));
+        all.push(("values", self.maintained.text()));
         all.push(("cameras", list(&self.cameras)));
         if let Some(Unshot { share, ambient_lx, doubt_lx }) = from.unshot {
             let [lx, doubt] = [ambient_lx.luminance(), doubt_lx].map(|lx| significant(lx, 3));

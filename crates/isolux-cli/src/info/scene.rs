@@ -2,6 +2,7 @@
 
 use crate::console::{facts, print, print_json, table};
 use crate::failure::Failure;
+use crate::maintained::Maintained;
 use crate::quantity::{flux, significant};
 use crate::shown::{name, names};
 use isolux::geometry::Point;
@@ -42,6 +43,8 @@ pub(super) struct Contents {
     groups: Vec<String>,
     luminaires: Vec<Luminaires>,
     luminous_flux_lm: f64,
+    #[serde(flatten)]
+    maintained: Maintained,
     materials: Vec<Surface>,
 }
 
@@ -81,6 +84,7 @@ impl Contents {
             luminaires: luminaires(scene),
             // A sum of nothing is -0.
             luminous_flux_lm: scene.luminous_flux_lm() + 0.0,
+            maintained: Maintained::of(scene),
             materials: scene.materials().iter().map(surface).collect(),
         }
     }
@@ -111,6 +115,7 @@ impl Contents {
             ("cameras", list(&self.cameras)),
             ("light groups", list(&self.groups)),
             ("luminous flux", flux(self.luminous_flux_lm, self.has_parallel())),
+            ("light", self.maintained.text()),
         ]);
         let light = |l: &Luminaires| {
             let lm = match l.kind {

@@ -136,9 +136,7 @@ fn predict(
     let is_asked = |name: &&str| flags.case.as_deref().is_none_or(|case| case == *name);
     for name in BUILTIN_NAMES.into_iter().filter(is_asked) {
         let parts = builtin(name).map_err(Failure::bad_input)?;
-        let scene = Scene::assemble(parts).map_err(|problems| {
-            Failure::BadInput(problems.iter().map(ToString::to_string).collect())
-        })?;
+        let scene = Scene::assemble(parts).map_err(Failure::bad_inputs)?;
         for method in methods(flags) {
             if interrupt.is_requested() {
                 return Ok(());

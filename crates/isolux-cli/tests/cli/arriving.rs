@@ -34,7 +34,7 @@ fn solve_names_luminaires_of_which_nothing_arrives() {
     assert_eq!(lost["luminaires"][0]["share"].as_f64(), Some(1.0));
     assert_eq!(lost["luminaires"][0]["lights_nothing"], true);
     let text = home.run(&solve).out;
-    assert!(text.contains("light that comes to no surface") && text.contains("50 %"), "{text}");
+    assert!(text.contains("light that reaches no surface") && text.contains("50 %"), "{text}");
 }
 
 #[test]

@@ -73,6 +73,50 @@ fn a_maintenance_factor_of_1_is_all_of_the_light() {
     }
 }
 
+/// The same room, with the factor in the luminaire and not on the grid.
+fn maintained_room() -> String {
+    let of_luminaire = "isotropic = { intensity_cd = 1000 }\nmaintenance_factor = 0.8\n";
+    let room = ROOM.replace("spacing = 0.5\nmaintenance_factor = 0.8\n", "spacing = 0.5\n");
+    room.replace("isotropic = { intensity_cd = 1000 }\n", of_luminaire)
+}
+
+#[test]
+fn a_maintenance_factor_counts_once() {
+    let by_grid = solved();
+    let by_luminaire = Home::new();
+    by_luminaire.file("room.toml", maintained_room());
+    let solve = ["solve", "room.toml", "-o", "map.glb", "--quality", "draft"];
+    let told = by_luminaire.run(&solve);
+    assert!(
+        told.out.contains("maintained: luminaires have a maintenance factor of 0.80"),
+        "{told:?}"
+    );
+    let desk = |home: &Home| home.run(&["grid", "map.glb", "--json"]).json()["grids"][0].clone();
+    let [one, other] = [&by_grid, &by_luminaire].map(desk);
+    let [a, b] = [&one, &other].map(|desk| desk["mean_lx"]["value"].as_f64().unwrap());
+    assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+    assert_eq!(
+        (&one["maintenance"], &other["maintenance"]),
+        (&"maintained".into(), &"maintained".into())
+    );
+    assert_eq!(other["luminaire_maintenance"]["greatest"], 0.8);
+    let initial = by_grid.run(&["grid", "map.glb", "--maintenance-factor", "1"]).out;
+    assert!(initial.contains("values are initial"), "{initial}");
+    // Another factor on top is refused; 1 is none.
+    let twice = by_luminaire.run(&["grid", "map.glb", "--maintenance-factor", "0.9"]);
+    assert!(twice.code == 2 && twice.err.contains("counts once"), "{twice:?}");
+    assert_eq!(by_luminaire.run(&["grid", "map.glb", "--maintenance-factor", "1"]).code, 0);
+    by_luminaire.file("both.toml", maintained_room() + "maintenance_factor = 0.8\n");
+    let both = by_luminaire.run(&["check", "both.toml"]);
+    assert!(both.code == 2 && both.err.contains("grid `desk`"), "{both:?}");
+    let points = ["probe", "map.glb", "--points", "-", "--json"];
+    let probed = by_luminaire.run_with_input(&points, "2 2 0 0 0 1\n").json();
+    assert_eq!(probed["maintenance"], "maintained");
+    for arguments in [["info", "map.glb", "--json"], ["info", "room.toml", "--json"]] {
+        assert_eq!(by_luminaire.run(&arguments).json()["maintenance"], "maintained");
+    }
+}
+
 #[test]
 fn bad_grids_are_refused_before_anything_is_computed() {
     let home = solved();
@@ -101,7 +145,7 @@ fn a_height_outside_of_the_scene_is_refused_and_a_grid_without_light_is_told() {
     let far = ["grid", "map.glb", "--corner", "10,10,5", "--u", "1,0,0", "--v", "0,1,0"];
     let ran = home.run(&far);
     assert_eq!(ran.code, 0, "{ran:?}");
-    assert!(ran.err.contains("no light comes to any of its points"), "{}", ran.err);
+    assert!(ran.err.contains("no light reaches any of its points"), "{}", ran.err);
 }
 
 #[test]

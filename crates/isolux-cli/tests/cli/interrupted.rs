@@ -152,10 +152,13 @@ fn a_resumed_run_that_comes_to_less_keeps_the_map_and_says_so() {
     }
     let less = &said["kept_instead_of"];
     assert!(less["rays"].as_u64() < known["rays"].as_u64(), "{said}");
-    assert!(resumed.err.contains("m.glb: is kept, as it knows more"), "{resumed:?}");
+    assert!(
+        resumed.err.contains("m.glb: kept, because the result of this run is less accurate"),
+        "{resumed:?}"
+    );
     // Who solves from the beginning is told what was there.
     let anew = limited("1ms", &[]);
-    assert!(bytes() != whole && anew.err.contains("m.glb: knew more before"), "{anew:?}");
+    assert!(bytes() != whole && anew.err.contains("m.glb: was more accurate before"), "{anew:?}");
     assert!(anew.json()["kept_instead_of"].is_null(), "{anew:?}");
 }
 

@@ -5,7 +5,9 @@ mod arriving;
 mod bad_input;
 #[cfg(unix)]
 mod caches;
+mod days;
 mod engines;
+mod errors;
 mod grids;
 mod groups;
 #[cfg(unix)]
@@ -15,6 +17,8 @@ mod lint;
 mod pictures;
 mod plans;
 mod ran;
+#[cfg(unix)]
+mod readme;
 mod results;
 mod rooms;
 mod tables;

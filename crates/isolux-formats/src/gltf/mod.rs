@@ -134,6 +134,7 @@ fn resolve(
         materials,
         textures,
         luminaires,
+        maintenance: None,
         groups: Vec::new(),
         cameras,
         grids: Vec::new(),

@@ -6,7 +6,7 @@ use super::preview::Preview;
 use isolux::geometry::{Direction, Point, Transform};
 use isolux::map::{IlluminationMap, Provenance};
 use isolux::photometry::IntensityDistribution;
-use isolux::scene::{CalculationGrid, Camera, Material, UpAxis};
+use isolux::scene::{CalculationGrid, Camera, Maintenance, Material, UpAxis};
 use isolux::units::Rgb;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -98,6 +98,9 @@ pub(super) struct SceneRecord {
     /// Luminaires refer to these: thousands of them share a few tables.
     pub(super) distributions: Vec<IntensityDistribution>,
     pub(super) luminaires: Vec<LuminaireRecord>,
+    /// Maps whose light is initial have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) maintenance: Option<Maintenance>,
     pub(super) groups: Vec<String>,
     pub(super) cameras: Vec<Camera>,
     /// Maps of before grids have none.

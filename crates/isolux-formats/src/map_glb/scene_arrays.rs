@@ -46,6 +46,7 @@ pub(super) fn write(
         textures: parts.textures.iter().zip(textures).map(texture_record).collect(),
         luminaires: parts.luminaires.into_iter().map(|l| distributions.record(l)).collect(),
         distributions: distributions.table,
+        maintenance: parts.maintenance,
         groups: parts.groups,
         cameras: parts.cameras,
         grids: parts.grids,
@@ -141,6 +142,7 @@ pub(super) fn read(record: SceneRecord, arrays: &Arrays<'_>) -> Result<ScenePart
             .into_iter()
             .map(|l| luminaire(l, distributions))
             .collect::<Result<_, _>>()?,
+        maintenance: record.maintenance,
         groups: record.groups,
         cameras: record.cameras,
         grids: record.grids,

@@ -22,6 +22,13 @@ pub(super) fn add(entries: &[At<GridRecord>], scene: &mut SceneParts, context: &
             border_m: record.border.map_or(0.0, |border| border.0 * unit_m),
             maintenance_factor: record.maintenance_factor.map_or(1.0, |factor| factor.0),
         };
+        if scene.maintenance.is_some() && grid.maintenance_factor != 1.0 {
+            let what = format!(
+                "grid `{}` has a maintenance factor, and the luminaires of the scene have one in their light already",
+                grid.name
+            );
+            context.problem(&entry.span(), what, "a factor counts once: remove one of them");
+        }
         match grid.problem() {
             Some((what, remedy)) => {
                 context.problem(&entry.span(), format!("grid `{}` {what}", grid.name), remedy);

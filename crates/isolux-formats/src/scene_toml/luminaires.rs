@@ -10,7 +10,7 @@ use super::record::{ArrayRecord, DirectionalRecord, GroupRecord, LuminaireRecord
 use super::spans::At;
 use isolux::geometry::{Point, Vector};
 use isolux::photometry::IntensityDistribution;
-use isolux::scene::{Luminaire, LuminaireKind, SceneParts, world_from_luminaire};
+use isolux::scene::{Luminaire, LuminaireKind, Maintenance, SceneParts, world_from_luminaire};
 use isolux::units::Rgb;
 use std::collections::HashMap;
 
@@ -71,6 +71,8 @@ pub(super) fn add(
     context: &mut Context,
 ) {
     let mut files = Files::default();
+    // Luminaires of geometry files are there already, and have no factor.
+    let mut factors: Vec<f64> = scene.luminaires.iter().map(|_| 1.0).collect();
     for (number, entry) in (1..).zip(entries) {
         let record = entry.get_ref();
         let name = record.name.clone().unwrap_or_else(|| format!("luminaire {number}"));
@@ -83,7 +85,9 @@ pub(super) fn add(
             let name = format!("{name}{place}");
             Luminaire { name, group, colour, kind }
         }));
+        factors.extend(found.maintenance);
     }
+    scene.maintenance = Maintenance::of(factors);
 }
 
 /// All luminaires of an entry.
@@ -92,6 +96,8 @@ struct Kinds {
     kinds: Vec<(String, LuminaireKind)>,
     /// That of a library.
     colour: Option<Rgb>,
+    /// The maintenance factor in their light; `None` for the sun, which needs none.
+    maintenance: Option<f64>,
 }
 
 fn kinds(
@@ -115,7 +121,12 @@ fn kinds(
     if let Some(sun) = &record.directional {
         let kind = directional(sun, entry, context)?;
         let one = context.take_luminaires(&entry.span(), 1, 1);
-        return one.then(|| Kinds { kinds: vec![(String::new(), kind)], colour: None });
+        let maintenance = record.maintenance_factor.map(|m| m.0);
+        return one.then(|| Kinds {
+            kinds: vec![(String::new(), kind)],
+            colour: None,
+            maintenance,
+        });
     }
     let light = match &record.kind {
         Some(kind) => of_library(kind, record, libraries, context),
@@ -144,7 +155,7 @@ fn kinds(
             points(&places, &aim, &share, &parts, entry, context)
         }
     };
-    Some(Kinds { kinds: kinds?, colour: light.colour })
+    Some(Kinds { kinds: kinds?, colour: light.colour, maintenance: Some(light.factor) })
 }
 
 /// The light of one luminaire, undimmed.

@@ -29,6 +29,7 @@ pub(crate) fn parts() -> SceneParts {
             srgb: (0..18).map(|k| 13 * k + 5).collect(),
         }],
         luminaires: luminaires(),
+        maintenance: Some(isolux::scene::Maintenance { least: 0.7, greatest: 0.9 }),
         groups: vec!["general".into(), "task".into()],
         cameras: vec![Camera {
             name: "from the corner".into(),

@@ -21,6 +21,19 @@ fn grids_are_in_the_units_of_the_file() {
 }
 
 #[test]
+fn a_maintenance_factor_is_on_luminaires_or_on_grids() {
+    let lamp = "[[luminaire]]\nposition = [0, 0, 2]\nisotropic = { intensity_cd = 10 }\n";
+    let maintained = format!("{lamp}maintenance_factor = 0.8\n");
+    let grid = "[[grid]]\ncorner = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 1, 0]\n";
+    let range = |text: &str| read(text).maintenance.map(|m| (m.least, m.greatest));
+    assert_eq!(range(&format!("{lamp}{grid}maintenance_factor = 0.8\n{FLOOR}")), None);
+    assert_eq!(range(&format!("{maintained}{grid}{FLOOR}")), Some((0.8, 0.8)));
+    assert_eq!(range(&format!("{maintained}{lamp}{grid}{FLOOR}")), Some((0.8, 1.0)));
+    let found = problems(&format!("{maintained}{grid}maintenance_factor = 0.8\n{FLOOR}"));
+    assert!(found.len() == 1 && found[0].contains("counts once"), "{found:?}");
+}
+
+#[test]
 fn what_is_no_grid_is_told_with_its_line() {
     for (wrong, told) in [
         ("v = [1, 1, 0]", "not at right angles"),

@@ -1,43 +1,88 @@
-//! Little surface with much of the light: the inside of lamps, housings behind floodlights.
+//! The lit part of the surface, and small parts of it with much of the light: the inside of lamps, housings behind
+//! floodlights.
 
 use super::IlluminationMap;
 use isolux_geometry::Point;
 
-/// The brightest part of the surface that is looked at, and the share of all light from which on that is much.
+/// The illuminance from which a surface counts as lit, as a share of the root mean square over the known surface. Wide
+/// ground outside of a room has less.
+const LIT_SHARE: f64 = 1e-3;
+/// The brightest part of the lit surface that is looked at.
 const BRIGHTEST: f64 = 0.01;
+/// The share of all light from which on that part has much of it.
 const MUCH: f64 = 1.0 / 3.0;
 
-/// The brightest hundredth of the known surface, where it has a third of all light or more: errors are relative to three times
-/// the mean of all else then, or more.
+/// The areas that a map knows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KnownSurface {
+    /// Area with a value, m2.
+    pub all_m2: f64,
+    /// The lit part of it, m2: with a thousandth of the root mean square of all illuminance at least.
+    pub lit_m2: f64,
+}
+
+/// The brightest hundredth of the lit surface, where it has a third of all light or more: errors are relative to three times
+/// the mean of the rest then, or more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HotSpots {
-    /// Share of all light on the known surface.
+    /// Share of all light on the lit surface.
     pub share: f64,
-    /// Mean illuminance of all else, lx.
+    /// Mean illuminance of the rest of the lit surface, lx.
     pub others_lx: f64,
+    /// The area of that rest, m2.
+    pub others_m2: f64,
     /// Where it is brightest, and the illuminance there, lx.
     pub brightest: (Point, f64),
 }
 
+/// The light at a vertex.
+#[derive(Clone, Copy)]
+struct Lit {
+    position: Point,
+    area_m2: f64,
+    lx: f64,
+}
+
 impl IlluminationMap {
+    /// The known surface and its lit part.
+    pub fn known_surface(&self) -> KnownSurface {
+        let known = self.known_light();
+        let area_m2 = |of: &[Lit]| of.iter().map(|v| v.area_m2).sum();
+        KnownSurface { all_m2: area_m2(&known), lit_m2: area_m2(&lit(known)) }
+    }
+
     /// Little surface that decides what errors of the scene are relative to, if there is any.
     pub fn hot_spots(&self) -> Option<HotSpots> {
-        let known = self.elements.vertices().iter().zip(&self.values);
-        let known = known.filter_map(|(v, value)| Some((v, value.as_ref()?.illuminance_lx())));
-        let mut known: Vec<(Point, f64, f64)> =
-            known.map(|(vertex, lx)| (vertex.position, vertex.area_m2, lx)).collect();
-        known.sort_by(|a, b| b.2.total_cmp(&a.2));
-        let &(position, _, most_lx) = known.first()?;
-        let all_m2: f64 = known.iter().map(|of| of.1).sum();
-        let all_lm: f64 = known.iter().map(|of| of.1 * of.2).sum();
+        let mut lit = lit(self.known_light());
+        lit.sort_by(|a, b| b.lx.total_cmp(&a.lx));
+        let &Lit { position, lx: most_lx, .. } = lit.first()?;
+        let all_m2: f64 = lit.iter().map(|of| of.area_m2).sum();
+        let all_lm: f64 = lit.iter().map(|of| of.area_m2 * of.lx).sum();
         let (mut left_m2, mut hot_lm) = (BRIGHTEST * all_m2, 0.0);
-        for (_, area_m2, lx) in known {
+        for Lit { area_m2, lx, .. } in lit {
             let counted_m2 = area_m2.min(left_m2);
             hot_lm += counted_m2 * lx;
             left_m2 -= counted_m2;
         }
         let share = hot_lm / all_lm;
-        let others_lx = (all_lm - hot_lm).max(0.0) / ((1.0 - BRIGHTEST) * all_m2);
-        (share >= MUCH).then_some(HotSpots { share, others_lx, brightest: (position, most_lx) })
+        let others_m2 = (1.0 - BRIGHTEST) * all_m2;
+        let others_lx = (all_lm - hot_lm).max(0.0) / others_m2;
+        let brightest = (position, most_lx);
+        (share >= MUCH).then_some(HotSpots { share, others_lx, others_m2, brightest })
     }
+
+    fn known_light(&self) -> Vec<Lit> {
+        let known = self.elements.vertices().iter().zip(&self.values);
+        let of = known.filter_map(|(v, value)| Some((v, value.as_ref()?.illuminance_lx())));
+        of.map(|(v, lx)| Lit { position: v.position, area_m2: v.area_m2, lx }).collect()
+    }
+}
+
+/// The lit part of a surface; nothing where all of it is dark.
+fn lit(mut known: Vec<Lit>) -> Vec<Lit> {
+    let all_m2: f64 = known.iter().map(|of| of.area_m2).sum();
+    let squared: f64 = known.iter().map(|of| of.area_m2 * of.lx * of.lx).sum();
+    let least_lx = LIT_SHARE * (squared / all_m2).sqrt();
+    known.retain(|of| of.lx > 0.0 && of.lx >= least_lx);
+    known
 }

@@ -10,7 +10,7 @@ mod vertex_light;
 
 pub use audit::{Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface};
 pub use grid::{Figure, GridFigures};
-pub use hot_spots::HotSpots;
+pub use hot_spots::{HotSpots, KnownSurface};
 pub use illuminance::Illuminance;
 pub use provenance::{Accuracy, FilterReport, Fresh, Method, MixedPart, Provenance, Unshot};
 pub use standing::Standing;

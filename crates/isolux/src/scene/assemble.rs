@@ -1,8 +1,8 @@
 //! From plain parts to a scene that cannot be invalid.
 
 use super::{
-    AreaLuminaire, Body, CalculationGrid, Camera, Finish, Luminaire, LuminaireKind, Material,
-    SceneParts, SceneProblem, Shape, Texture, UpAxis,
+    AreaLuminaire, Body, CalculationGrid, Camera, Finish, Luminaire, LuminaireKind, Maintenance,
+    Material, SceneParts, SceneProblem, Shape, Texture, UpAxis,
 };
 use super::{mounted, origin, sealed};
 use crate::units::Rgb;
@@ -27,6 +27,7 @@ pub struct Scene {
     materials: Vec<Material>,
     textures: Vec<Texture>,
     luminaires: Vec<Luminaire>,
+    maintenance: Option<Maintenance>,
     area_luminaires: Vec<AreaLuminaire>,
     groups: Vec<String>,
     cameras: Vec<Camera>,
@@ -67,6 +68,7 @@ impl Scene {
             materials: parts.materials,
             textures: parts.textures,
             luminaires,
+            maintenance: parts.maintenance,
             area_luminaires: Vec::new(),
             groups: parts.groups,
             cameras: parts.cameras,
@@ -95,6 +97,7 @@ impl Scene {
             materials: self.materials.clone(),
             textures: self.textures.clone(),
             luminaires: self.luminaires.clone(),
+            maintenance: self.maintenance,
             groups: self.groups.clone(),
             cameras: self.cameras.clone(),
             grids: self.grids.clone(),
@@ -232,9 +235,22 @@ impl Scene {
         &self.luminaires
     }
 
+    /// The same scene with other maintenance factors within its light.
+    pub(super) fn maintained(self, maintenance: Option<Maintenance>) -> Self {
+        Self { maintenance, ..self }
+    }
+
     /// Emitting surfaces.
     pub fn area_luminaires(&self) -> &[AreaLuminaire] {
         &self.area_luminaires
+    }
+
+    /// The maintenance factors that the light of the scene already contains, with 1 for emitting surfaces; `None` where
+    /// all light is initial.
+    pub fn maintenance(&self) -> Option<Maintenance> {
+        let has_surfaces = !self.area_luminaires.is_empty();
+        let greatest = |of: Maintenance| if has_surfaces { 1.0 } else { of.greatest };
+        self.maintenance.map(|of| Maintenance { greatest: greatest(of), ..of })
     }
 
     /// Names of the light groups.

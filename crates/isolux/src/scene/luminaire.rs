@@ -40,6 +40,25 @@ pub enum LuminaireKind {
     },
 }
 
+/// The maintenance factors that the light of luminaires already contains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Maintenance {
+    /// The least factor.
+    pub least: f64,
+    /// The greatest factor; 1 where some light is initial.
+    pub greatest: f64,
+}
+
+impl Maintenance {
+    /// The range of factors of several sources of light; `None` where all light is initial.
+    pub fn of(factors: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let range = factors
+            .into_iter()
+            .fold((1.0_f64, 0.0_f64), |(low, high), factor| (low.min(factor), high.max(factor)));
+        (range.0 < 1.0).then_some(Self { least: range.0, greatest: range.1 })
+    }
+}
+
 /// Triangles of one shape that emit by their material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AreaLuminaire {

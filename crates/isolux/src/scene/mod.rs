@@ -26,7 +26,7 @@ pub use assemble::Scene;
 pub use bounded::{Lowered, MOST_REFLECTANCE};
 pub use grid::CalculationGrid;
 pub use hanging::world_from_luminaire;
-pub use luminaire::{AreaLuminaire, Luminaire, LuminaireKind};
+pub use luminaire::{AreaLuminaire, Luminaire, LuminaireKind, Maintenance};
 pub use material::{Body, Coat, Dielectric, Finish, Gloss, Material, Reflectance};
 pub use parts::{SceneParts, Shape, UpAxis};
 pub use problem::{Place, SceneProblem};

@@ -1,6 +1,6 @@
 //! The plain description that readers fill.
 
-use super::{CalculationGrid, Camera, Luminaire, Material, Texture};
+use super::{CalculationGrid, Camera, Luminaire, Maintenance, Material, Texture};
 use isolux_geometry::Direction;
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +19,8 @@ pub struct SceneParts {
     pub textures: Vec<Texture>,
     /// Luminaires without surface.
     pub luminaires: Vec<Luminaire>,
+    /// The maintenance factors within the light of the luminaires; `None` where all of it is initial.
+    pub maintenance: Option<Maintenance>,
     /// Names of light groups; luminaires without one are in group 0.
     pub groups: Vec<String>,
     /// Points of view.

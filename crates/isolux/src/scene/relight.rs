@@ -1,6 +1,6 @@
 //! The same surfaces in other light.
 
-use super::{Body, Finish, Luminaire, LuminaireKind, Material, Scene};
+use super::{Body, Finish, Luminaire, LuminaireKind, Maintenance, Material, Scene};
 use crate::photometry::{IntensityDistribution, PhotometricWeb};
 use crate::units::Rgb;
 use std::sync::Arc;
@@ -47,7 +47,11 @@ impl Scene {
             shining(material, parts.iter().map(|&(scene, by)| (&scene.materials()[k], by)))
         };
         let materials = first.materials().iter().enumerate().map(mixed).collect();
-        first.relit(luminaires, groups, materials)
+        let range = |m: Maintenance| [m.least, m.greatest];
+        let factors =
+            parts.iter().flat_map(|(scene, _)| scene.maintenance().map_or([1.0; 2], range));
+        let maintenance = Maintenance::of(factors);
+        first.relit(luminaires, groups, materials).maintained(maintenance)
     }
 }
 

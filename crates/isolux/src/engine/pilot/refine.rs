@@ -19,6 +19,31 @@ impl Pilot<'_> {
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) -> Survey {
+        let (mut look, most, has_time) = self.first_elements(request, go_on);
+        if has_time {
+            self.refine(&mut Hidden::new(most), &mut look, request, go_on);
+        }
+        self.refine_for_readers(most, &mut look, request, go_on);
+        self.mesh.is_full = look.elements.vertices().len() as f64 > FULL_MESH_SHARE * most as f64;
+        look
+    }
+
+    /// Surveys and refines for the predictions of the remaining time alone, as long as there is time. The search for
+    /// light beside hidden vertices is left out: it takes longer than all else here and adds few elements.
+    pub(super) fn foresee(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) {
+        let (mut look, most, has_time) = self.first_elements(request, go_on);
+        if has_time {
+            self.refine_for_readers(most, &mut look, request, go_on);
+        }
+    }
+
+    /// The survey of the first elements, the largest number of vertices for indirect light, and whether there is time
+    /// for more.
+    fn first_elements(
+        &mut self,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) -> (Survey, usize, bool) {
         let mut look = self.look(request, go_on);
         if let Some(edge_m) = self.mesh.usual_edge_m.filter(|_| !look.is_smooth()) {
             self.mesh.subdivision.bisect_to(edge_m, request.max_vertices);
@@ -30,16 +55,23 @@ impl Pilot<'_> {
         self.mesh.most_for_indirect_light = most as f64;
         self.try_some(&look, request.target);
         let excess = (Some(look.greatest_excess(request)), None);
-        if self.has_time(&look, request, excess, go_on) {
-            self.refine(&mut Hidden::new(most), &mut look, request, go_on);
-        }
+        let has_time = self.has_time(&look, request, excess, go_on);
+        (look, most, has_time)
+    }
+
+    /// Refines the elements for every kind of reading.
+    fn refine_for_readers(
+        &mut self,
+        most: usize,
+        look: &mut Survey,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) {
         // Readers gather over gathered maps alone: maps of particles are blurred nearby.
         let reads = if request.is_fitted { &ReadFor::EVERY[..] } else { &[ReadFor::All] };
         for &what in reads {
-            self.refine(&mut IndirectError::of(what, most), &mut look, request, go_on);
+            self.refine(&mut IndirectError::of(what, most), look, request, go_on);
         }
-        self.mesh.is_full = look.elements.vertices().len() as f64 > FULL_MESH_SHARE * most as f64;
-        look
     }
 
     /// The loop of refinement: bisects the elements that a criterion marks until it marks none, or as far as time

@@ -3,7 +3,8 @@
 use super::*;
 use crate::elements::PlaceOnSide;
 use crate::engine::{
-    Finer, FinerSettings, MapReader, Solution, SolveRequest, Watch, reference_lx, solve,
+    Finer, FinerSettings, MapReader, PictureLight, ShadowRays, Solution, SolveRequest, Watch,
+    reference_lx, solve,
 };
 use crate::map::IlluminationMap;
 use crate::sampling::{Key, Sequence};
@@ -48,8 +49,10 @@ fn off_lx(scene: &Scene, of: &IlluminationMap, map: &IlluminationMap) -> f64 {
         let (u, v) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
         let triangle = floor[(pick * floor.len() as f64) as usize];
         let back = map.interpolate(triangle, false, u, v).is_none();
-        let true_lx =
-            reader.glance(PlaceOnSide { triangle, back, uv: [u, v] }, 0, None)?.illuminance_lx();
+        let rays = ShadowRays { fewest: 8, most: 32 };
+        let place = PlaceOnSide { triangle, back, uv: [u, v] };
+        let glance = reader.glance(place, (0, rays), PictureLight::default())?;
+        let true_lx = glance.illuminance_lx();
         let shown_lx = of.interpolate(triangle, back, u, v)?.illuminance_lx();
         Some((shown_lx - true_lx).powi(2))
     });

@@ -95,6 +95,20 @@ fn spots_that_decide_what_errors_are_relative_to_are_told() {
     assert_eq!(spots(0.5, 0.1), None);
 }
 
+#[test]
+fn wide_ground_without_light_makes_no_spot_of_a_room() {
+    let mut shapes = inward_box(ROOM_M, 0);
+    shapes.push(rectangle([-150.0, -150.0, -0.1], [300.0, 0.0, 0.0], [0.0, 300.0, 0.0], 0));
+    let lamp = isotropic([1.9, 2.3, 1.5], FLUX_LM / (4.0 * PI));
+    let scene = scene(shapes, vec![painted(Rgb::grey(0.5))], vec![lamp]);
+    let request = SolveRequest { accuracy: Some(0.3), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let known = map.known_surface();
+    let room_m2 = 2.0 * (4.0 * 5.0 + 4.0 * 2.8 + 5.0 * 2.8);
+    assert!((known.lit_m2 / room_m2 - 1.0).abs() < 1e-3 && known.all_m2 > 9e4, "{known:?}");
+    assert_eq!(map.hot_spots(), None);
+}
+
 /// Under a large sky one particle in a quarter of a million would come to a square metre: that none does tells nothing of its vertices.
 #[test]
 fn a_floor_that_no_particle_finds_below_a_large_sky_is_right_as_it_is() {

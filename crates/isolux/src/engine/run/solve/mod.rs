@@ -16,6 +16,7 @@ use crate::map::Method;
 use crate::scene::Scene;
 use session::{End, FEWEST_STAGES, MOST_STAGES, Pace, Run};
 pub use so_far::{SoFar, Solution, Watcher};
+use std::mem;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -33,7 +34,11 @@ pub fn solve(
     solve_looked_at(scene, request, resume, &mut |progress, _| watch(progress))
 }
 
-/// Predicts the size and time of a run from its pilot, which ends after `patience`, but not before its first survey.
+/// The time of a round of refinement in the one before it, at most; each has more elements.
+const NEXT_ROUND_RATIO: f64 = 2.0;
+
+/// Predicts the size and time of a run from its pilot. The pilot ends before a round that would not be over after
+/// `patience`, but not before its first survey.
 pub fn foresee(
     scene: &Scene,
     request: &SolveRequest,
@@ -43,10 +48,12 @@ pub fn foresee(
     let run = Run::new(scene, request);
     let lighting = Lighting::new(scene);
     let mut seen = Foreseen { receivers: 0, finish: None };
+    let mut last_s = 0.0;
     pilot::foresee(scene, &lighting, &run.pilot_request(), &mut |round| {
         seen =
             Foreseen { receivers: round.receivers_then.ceil() as u64, finish: run.foreseen(round) };
-        run.elapsed_s() < patience.as_secs_f64()
+        let round_s = run.elapsed_s() - mem::replace(&mut last_s, run.elapsed_s());
+        last_s + NEXT_ROUND_RATIO * round_s < patience.as_secs_f64()
     });
     Ok(seen)
 }

@@ -1,0 +1,80 @@
+//! Errors as programs and terminals get them.
+
+use crate::ran::{Home, Ran};
+
+/// A command with what it takes from its environment.
+fn run_with(home: &Home, arguments: &[&str], environment: &[(&str, &str)]) -> Ran {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_isolux"));
+    for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+        command.env_remove(name);
+    }
+    command.args(arguments).current_dir(home.path("")).envs(environment.iter().copied());
+    Ran::of(&command.output().unwrap())
+}
+
+/// Arguments, words of the message, the file and the beginning of the place that it names.
+type Case = (&'static [&'static str], &'static str, Option<&'static str>, Option<&'static str>);
+
+#[test]
+fn with_json_every_error_is_an_object_on_standard_output() {
+    let home = Home::new();
+    home.file("bad.pts", "0 0 0 0 0 1\n1 2 3\n1 2\n");
+    home.file("text.toml", "name = 3\n");
+    let cases: [Case; 7] = [
+        (
+            &["solve", "missing.glb", "-o", "m.glb", "--json"],
+            "does not exist",
+            Some("missing.glb"),
+            None,
+        ),
+        (&["--json", "check", "text.toml"], "text.toml", Some("text.toml"), Some("line 1")),
+        (
+            &["probe", "builtin:cube", "--points", "bad.pts", "--json"],
+            "bad.pts: line 2",
+            Some("bad.pts"),
+            Some("line 2"),
+        ),
+        (&["solve", "builtin:cube", "--json"], "--output", None, None),
+        (&["solve", "builtin:cube", "-o", "m.glb", "--accuracy", "7", "--json"], "1%", None, None),
+        (&["paint", "--json"], "paint", None, None),
+        (&["--json"], "subcommand", None, None),
+    ];
+    for (arguments, words, file, place) in cases {
+        let ran = run_with(&home, arguments, &[]);
+        assert_eq!(ran.code, 2, "{arguments:?}: {ran:?}");
+        let error = ran.json()["error"].clone();
+        assert!(error["message"].as_str().unwrap().contains(words), "{arguments:?}: {error}");
+        assert_eq!(error["file"].as_str(), file, "{arguments:?}");
+        if let Some(place) = place {
+            assert!(error["place"].as_str().unwrap().starts_with(place), "{error}");
+        }
+        assert!(!error["remedy"].as_str().unwrap().is_empty(), "{arguments:?}: {error}");
+        assert_eq!(error["exit_code"], 2, "{arguments:?}");
+        assert!(!ran.err.is_empty(), "people read standard error: {arguments:?}");
+    }
+    let points = run_with(&home, &["probe", "builtin:cube", "--points", "bad.pts", "--json"], &[]);
+    assert_eq!(points.json()["error"]["problems"].as_array().map(Vec::len), Some(2));
+    let refused = run_with(
+        &home,
+        &["solve", "builtin:cube", "-o", "m.glb", "--max-memory", "1KiB", "--json"],
+        &[],
+    );
+    assert_eq!((refused.code, &refused.json()["error"]["exit_code"]), (4, &4.into()));
+    assert_eq!(run_with(&home, &["--json", "solve", "--help"], &[]).code, 0);
+}
+
+#[test]
+fn errors_have_colour_where_it_is_wanted() {
+    let home = Home::new();
+    let err = |environment: &[(&str, &str)]| {
+        run_with(&home, &["solve", "missing.glb", "-o", "m.glb"], environment).err
+    };
+    let plain = err(&[]);
+    assert!(plain.starts_with("error: missing.glb: does not exist"), "{plain:?}");
+    assert_eq!(err(&[("NO_COLOR", "1")]), plain);
+    let coloured = err(&[("CLICOLOR_FORCE", "1")]);
+    assert!(coloured.starts_with("\u{1b}[") && coloured.contains("error:"), "{coloured:?}");
+    // The arguments, too.
+    let wrong = run_with(&home, &["solve"], &[("CLICOLOR_FORCE", "1")]).err;
+    assert!(wrong.contains('\u{1b}'), "{wrong:?}");
+}
