@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "tests may stop at the first surprise")]
 
 use isolux::elements::PlaceOnSide;
-use isolux::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest, Watch, solve};
+use isolux::engine::{
+    ExactSettings, MapReader, PictureLight, ProbePoint, ShadowRays, SolveRequest, Watch, solve,
+};
 use isolux::geometry::{Direction, Point, Transform, Vector};
 use isolux::map::Fresh;
 use isolux::photometry::IntensityDistribution;
@@ -114,11 +116,9 @@ fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     let (view, gathered) =
         trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap();
     let read = |at: SurfacePoint| {
-        reader.glance(
-            PlaceOnSide { triangle: at.triangle, back: at.back, uv: [at.u, at.v] },
-            0,
-            None,
-        )
+        let place = PlaceOnSide { triangle: at.triangle, back: at.back, uv: [at.u, at.v] };
+        let rays = ShadowRays { fewest: 4, most: 32 };
+        reader.glance(place, (0, rays), PictureLight::default())
     };
     let interpolated = trace(&scene, &camera, size, &settings, &read).unwrap();
     let truth = truth(&view, &reader);
