@@ -5,9 +5,8 @@
 //! single pixels. Squares beside one that differs are split, too, so that a narrow shadow is followed along all of its
 //! length once it is found anywhere. Pixels across the edge of a shadow are left to their cells.
 
-use crate::gathered::on_side;
 use crate::image::Surface;
-use crate::middles::Middles;
+use crate::middles::{Middles, on_side};
 use crate::trace::SurfacePoint;
 use isolux::engine::{MapReader, ShadowRays};
 use isolux::map::IlluminationMap;

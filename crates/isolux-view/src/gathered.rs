@@ -5,9 +5,8 @@ use crate::camera::View;
 use crate::direct::DirectField;
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
-use crate::middles::{Middles, surface};
+use crate::middles::{Middles, on_side, surface};
 use crate::trace::{SurfacePoint, TraceSettings, trace, trace_watched};
-use isolux::elements::PlaceOnSide;
 use isolux::engine::net::{Filled, Fineness, Net, Wanted};
 use isolux::engine::{Allowance, IndirectReading, MapReader, PictureLight, ShadowRays, Told};
 use isolux::map::{Illuminance, IlluminationMap};
@@ -374,10 +373,6 @@ impl Entry {
     fn is_in_gap(&self) -> bool {
         self.wanted == Some(true)
     }
-}
-
-pub(crate) fn on_side(at: &SurfacePoint) -> PlaceOnSide {
-    PlaceOnSide { triangle: at.triangle, back: at.back, uv: [at.u, at.v] }
 }
 
 /// Whether light is to be gathered at a place, and whether that lies in a gap; else the standard error of what the map tells, lx.

@@ -2,6 +2,7 @@
 
 use crate::image::{Size, Surface};
 use crate::trace::SurfacePoint;
+use isolux::elements::PlaceOnSide;
 use isolux::scene::Scene;
 use rayon::prelude::*;
 
@@ -118,6 +119,11 @@ impl Middles {
     fn shows(&self, number: usize, at: &SurfacePoint, surface: &Surface) -> bool {
         self.places[number].path == at.path && self.surfaces[number].continues(surface)
     }
+}
+
+/// A place as maps and their readers know it.
+pub(crate) fn on_side(at: &SurfacePoint) -> PlaceOnSide {
+    PlaceOnSide { triangle: at.triangle, back: at.back, uv: [at.u, at.v] }
 }
 
 /// The surface at a place.

@@ -165,3 +165,84 @@ fn a_gap_in_the_middle_of_a_pixel_does_not_darken_what_the_pixel_shows_before_it
     let darkened = (0..size.pixels()).filter(|&pixel| share(pixel) < 0.85).count();
     assert_eq!(darkened, 0, "pixels of {}", size.pixels());
 }
+
+/// A room with a ceiling panel and a pole between it and the floor, and the camera of a visitor.
+fn room_with_panel(pole: Vec<Shape>) -> (Scene, Camera) {
+    let mut shapes = cuboid([0.0; 3], [4.0, 4.0, 3.0], true);
+    shapes.extend(pole);
+    let panel = rectangle([1.7, 1.7, 2.9], [0.0, 0.6, 0.0], [0.6, 0.0, 0.0]);
+    shapes.push(Shape { material: 1, ..panel });
+    let lamp = Finish { luminance_cd_m2: Rgb::grey(2000.0), ..Finish::BLACK };
+    let parts = SceneParts {
+        shapes,
+        materials: vec![
+            // Dark, so that nearly all light is direct.
+            Material::one_sided("dark", Finish::diffuse(Rgb::grey(0.02))),
+            Material::one_sided("panel", lamp),
+        ],
+        ..SceneParts::default()
+    };
+    let camera = Camera {
+        name: "camera".into(),
+        position: Point::new(0.3, 0.3, 1.6),
+        direction: Vector::new(1.0, 1.0, -0.7).direction().unwrap(),
+        up: Direction::Z,
+        vertical_fov_rad: 1.0,
+    };
+    (Scene::assemble(parts).unwrap(), camera)
+}
+
+/// What the light of pixels on the floor is off by, as a share of its mean: root mean square, and what one in 200 exceeds.
+/// (The middle of a pixel may miss a shadow that is narrower than the pixel.)
+fn direct_off(scene: &Scene, camera: &Camera) -> [f64; 2] {
+    let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+    let map = solve(scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let reader = MapReader::new(scene, &map);
+    let (size, settings) = (Size::new(192, 108).unwrap(), TraceSettings::FINE);
+    let many = ShadowRays { fewest: 256, most: 256 };
+    let read = |at: SurfacePoint| {
+        let place = PlaceOnSide { triangle: at.triangle, back: at.back, uv: [at.u, at.v] };
+        reader.glance(place, (1, many), PictureLight::default())
+    };
+    let truth = trace(scene, camera, size, &settings, &read).unwrap();
+    let (view, _) = trace_map((scene, &map), camera, size, (&settings, &mut |_| {})).unwrap();
+    let is_floor =
+        |pixel: usize| truth.surface(pixel).is_some_and(|surface| surface.position.z.abs() < 1e-9);
+    // A pixel whose middle and most cells show the floor.
+    let is_within = |pixel: usize| {
+        let width = size.width() as usize;
+        [pixel, pixel + 1, pixel.wrapping_sub(1), pixel + width, pixel.wrapping_sub(width)]
+            .iter()
+            .all(|&near| near < size.pixels() && is_floor(near))
+    };
+    let lx = |image: &LuminanceImage, pixel: usize| {
+        f64::from(image.reading(pixel).unwrap().illuminance_lx)
+    };
+    let floor: Vec<usize> = (0..size.pixels()).filter(|&pixel| is_within(pixel)).collect();
+    assert!(floor.len() > 2000, "{} pixels", floor.len());
+    let mean_lx = floor.iter().map(|&pixel| lx(&truth, pixel)).sum::<f64>() / floor.len() as f64;
+    let one_off = |&pixel: &usize| (lx(&view, pixel) - lx(&truth, pixel)).abs() / mean_lx;
+    let mut off: Vec<f64> = floor.iter().map(one_off).collect();
+    let square = off.iter().map(|off| off * off).sum::<f64>() / off.len() as f64;
+    off.sort_unstable_by(f64::total_cmp);
+    [square.sqrt(), off[off.len() - off.len() / 200]]
+}
+
+#[test]
+fn half_shadows_are_smooth_with_few_rays() {
+    let (scene, camera) = room_with_panel(cuboid([1.5, 1.5, 0.0], [0.5, 0.5, 1.0], false));
+    let [off, most] = direct_off(&scene, &camera);
+    // Steps of two per cent are just seen; the noise of 32 rays a pixel would be five.
+    assert!(off < 0.01, "{off}");
+    assert!(most < 0.08, "{most}");
+}
+
+#[test]
+fn the_narrow_shadow_of_a_pole_is_followed_along_its_length() {
+    let pole = cuboid([0.2, 2.4, 0.05], [3.6, 0.03, 0.03], false);
+    let (scene, camera) = room_with_panel(pole);
+    let [off, most] = direct_off(&scene, &camera);
+    assert!(off < 0.015, "{off}");
+    // Were a part of the shadow not found, its pixels would be brighter by a third.
+    assert!(most < 0.1, "{most}");
+}

@@ -29,6 +29,8 @@ const AGREED: f64 = 1e-3;
 const EDGE_ORDER: f64 = 0.75;
 /// The fewest rays whose spread counts for a triangle; of fewer, the spread of all counts.
 const FEWEST_LOOKS: f64 = 8.0;
+/// The noise of light from sources that the light tree draws from which more rays follow, as a share of it.
+const EVEN: f64 = 0.01;
 /// The replicates that measure noise where the light tree draws sources.
 const DRAWINGS: usize = 4;
 
@@ -181,17 +183,23 @@ impl Lighting<'_> {
             let lx = self.by_rays_on(patches, at, rays.most, &mut Dice::new(sequence, 0));
             return Measured { lx, variance: 0.0 };
         }
+        let cut = (!self.tree.lamps.is_empty()).then(|| self.cut_on(patches, at));
         let by = |rays: usize, sequence: Sequence| {
+            let rays = rays.div_ceil(DRAWINGS);
+            let samples = (rays / self.area_sources.max(1)).max(1);
             let one = |k: usize| {
                 let dice = &mut Dice::new(sequence, k as u32);
-                self.by_rays_on(patches, at, rays.div_ceil(DRAWINGS), dice)
+                match &cut {
+                    Some(cut) => self.lit_by_cut(cut, at, (rays, samples), dice),
+                    None => self.by_all(at, samples, dice),
+                }
             };
             let values: [Rgb; DRAWINGS] = std::array::from_fn(one);
             let (lx, variance) = mean_and_variance(&values);
             Measured { lx, variance }
         };
         let first = by(rays.fewest, sequence);
-        let is_even = first.variance.sqrt() <= AGREED * first.lx.luminance();
+        let is_even = first.variance.sqrt() <= EVEN * first.lx.luminance();
         if is_even || rays.most <= rays.fewest { first } else { by(rays.most, sequence.fork(0, 4)) }
     }
 }
