@@ -4,9 +4,8 @@
 use super::IlluminationMap;
 use isolux_geometry::Point;
 
-/// The illuminance from which a surface counts as lit, as a share of the root mean square over the known surface. Wide
-/// ground outside of a room has less.
-const LIT_SHARE: f64 = 1e-3;
+/// The share of all light that may fall on surface that does not count as lit. Wide ground outside of a room has less.
+const UNLIT_SHARE: f64 = 1e-4;
 /// The brightest part of the lit surface that is looked at.
 const BRIGHTEST: f64 = 0.01;
 /// The share of all light from which on that part has much of it.
@@ -17,7 +16,7 @@ const MUCH: f64 = 1.0 / 3.0;
 pub struct KnownSurface {
     /// Area with a value, m2.
     pub all_m2: f64,
-    /// The lit part of it, m2: with a thousandth of the root mean square of all illuminance at least.
+    /// The lit part of it, m2: the brightest surface with all but a ten-thousandth of the light.
     pub lit_m2: f64,
 }
 
@@ -53,8 +52,7 @@ impl IlluminationMap {
 
     /// Little surface that decides what errors of the scene are relative to, if there is any.
     pub fn hot_spots(&self) -> Option<HotSpots> {
-        let mut lit = lit(self.known_light());
-        lit.sort_by(|a, b| b.lx.total_cmp(&a.lx));
+        let lit = lit(self.known_light());
         let &Lit { position, lx: most_lx, .. } = lit.first()?;
         let all_m2: f64 = lit.iter().map(|of| of.area_m2).sum();
         let all_lm: f64 = lit.iter().map(|of| of.area_m2 * of.lx).sum();
@@ -78,11 +76,15 @@ impl IlluminationMap {
     }
 }
 
-/// The lit part of a surface; nothing where all of it is dark.
+/// The lit part of a surface, the brightest first; nothing where all of it is dark.
 fn lit(mut known: Vec<Lit>) -> Vec<Lit> {
-    let all_m2: f64 = known.iter().map(|of| of.area_m2).sum();
-    let squared: f64 = known.iter().map(|of| of.area_m2 * of.lx * of.lx).sum();
-    let least_lx = LIT_SHARE * (squared / all_m2).sqrt();
-    known.retain(|of| of.lx > 0.0 && of.lx >= least_lx);
-    known
+    known.retain(|of| of.lx > 0.0);
+    known.sort_by(|a, b| b.lx.total_cmp(&a.lx));
+    let mut left_lm = (1.0 - UNLIT_SHARE) * known.iter().map(|of| of.area_m2 * of.lx).sum::<f64>();
+    let is_lit = |of: &&Lit| {
+        let is_lit = left_lm > 0.0;
+        left_lm -= of.area_m2 * of.lx;
+        is_lit
+    };
+    known.iter().take_while(is_lit).copied().collect()
 }

@@ -90,7 +90,8 @@ fn spots_that_decide_what_errors_are_relative_to_are_told() {
     let (at, lx) = told.brightest;
     assert!((at - Point::new(1.9, 2.3, ROOM_M[2])).length() < 0.01 && lx > 1e5, "{told:?}");
     let all_m2 = 2.0 * (4.0 * 5.0 + 4.0 * 2.8 + 5.0 * 2.8);
-    let others_lm = told.others_lx * all_m2 * 0.99;
+    assert!((told.others_m2 / (0.99 * all_m2) - 1.0).abs() < 0.01, "{told:?}");
+    let others_lm = told.others_lx * told.others_m2;
     assert!((others_lm / (FLUX_LM / 0.9 * (1.0 - told.share)) - 1.0).abs() < 0.05, "{told:?}");
     assert_eq!(spots(0.5, 0.1), None);
 }
