@@ -14,8 +14,11 @@ pub(crate) struct GridValues {
     pub(crate) normal: Normal,
     /// Along `u` first.
     pub(crate) points: Vec<Point>,
-    /// Initial illuminance.
+    /// Initial illuminance; `None` where it is not known, and outside of the room.
     pub(crate) values: Vec<Option<Illuminance>>,
+    /// Of every point whether it lies outside of the room: no light reaches it, and it sees nothing that is lit, while
+    /// other points of the grid are lit.
+    pub(crate) are_outside: Vec<bool>,
     /// What is told of all points, maintained; `None` where none is known.
     pub(crate) figures: Option<GridFigures>,
 }
@@ -25,9 +28,13 @@ impl GridValues {
     pub(crate) fn of(grid: CalculationGrid, reader: &MapReader<'_>) -> Option<Self> {
         let (normal, points) = (grid.normal()?, grid.points());
         let read = |&position: &Point| reader.measure(ProbePoint { position, normal });
-        let values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
+        let mut values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
+        let are_outside = are_outside((&points, &values), normal, reader);
+        for (value, is_outside) in values.iter_mut().zip(&are_outside) {
+            *value = value.filter(|_| !is_outside);
+        }
         let figures = GridFigures::of(&grid, &values);
-        Some(Self { grid, normal, points, values, figures })
+        Some(Self { grid, normal, points, values, are_outside, figures })
     }
 
     /// Values as they are maintained.
@@ -35,4 +42,21 @@ impl GridValues {
         let factor = self.grid.maintenance_factor;
         self.values.iter().map(move |value| value.map(|value| value.dimmed(factor)))
     }
+}
+
+/// Of every point whether it lies outside of the room that others lie in.
+fn are_outside(
+    (points, values): (&[Point], &[Option<Illuminance>]),
+    normal: Normal,
+    reader: &MapReader<'_>,
+) -> Vec<bool> {
+    let is_dark = |value: &Option<Illuminance>| value.is_some_and(|v| v.illuminance_lx() == 0.0);
+    if values.iter().flatten().all(|value| value.illuminance_lx() == 0.0) {
+        return vec![false; points.len()];
+    }
+    let all = points.par_iter().zip(values);
+    all.map(|(&position, value)| {
+        is_dark(value) && !reader.sees_lit(ProbePoint { position, normal })
+    })
+    .collect()
 }

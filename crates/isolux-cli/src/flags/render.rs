@@ -8,7 +8,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// Options of views that Radiance writes with one dash.
-const OF_RADIANCE: [&str; 6] = ["-vf", "-vp", "-vd", "-vu", "-vh", "-vv"];
+const OF_RADIANCE: [&str; 10] =
+    ["-vf", "-vp", "-vd", "-vu", "-vh", "-vv", "-vo", "-va", "-vs", "-vl"];
 
 /// A word of the command line, with two dashes where Radiance writes one: `-vp` is `--vp`, and `-vtl` is `--vt=l`.
 pub(crate) fn with_two_dashes(word: OsString) -> OsString {
@@ -132,6 +133,23 @@ pub(crate) struct RadianceFlags {
     /// Angle from the lower to the upper edge in degrees, of -vtl the length (-vv)
     #[arg(long, value_name = "DEGREES", value_parser = quantity::coordinate, allow_hyphen_values = true)]
     pub vv: Option<f64>,
+    /// Clipping planes and shifts (-vo, -va, -vs, -vl): zero, as Radiance writes where there are none
+    #[arg(long, value_name = "0", value_parser = zero, allow_hyphen_values = true, hide = true)]
+    pub vo: Option<f64>,
+    #[arg(long, value_name = "0", value_parser = zero, allow_hyphen_values = true, hide = true)]
+    pub va: Option<f64>,
+    #[arg(long, value_name = "0", value_parser = zero, allow_hyphen_values = true, hide = true)]
+    pub vs: Option<f64>,
+    #[arg(long, value_name = "0", value_parser = zero, allow_hyphen_values = true, hide = true)]
+    pub vl: Option<f64>,
+}
+
+/// What clipping planes and shifts of views can be.
+fn zero(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(0.0) => Ok(0.0),
+        _ => Err("can only be 0; leave it out".to_owned()),
+    }
 }
 
 /// How luminance becomes a picture.

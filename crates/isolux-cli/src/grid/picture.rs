@@ -3,6 +3,7 @@
 use super::figures;
 use super::result::GridResult;
 use crate::failure::Failure;
+use crate::maintained::Maintained;
 use crate::output::OutputPath;
 use crate::quantity::significant;
 use crate::render;
@@ -19,8 +20,7 @@ pub(super) fn write(
     result: &GridResult,
 ) -> Result<(), Failure> {
     let grid = &result.read.grid;
-    let points: Vec<PlanPoint> =
-        result.read.maintained().zip(&result.outside.points).map(point).collect();
+    let points: Vec<PlanPoint> = result.read.maintained().map(point).collect();
     let (title, lines) = heading(scene, result);
     let plan = Plan { scene, grid, points: &points, title: &title, lines: &lines };
     let drawing = plan.drawing().map_err(Failure::bad_input)?;
@@ -30,8 +30,7 @@ pub(super) fn write(
     render::write(output, &drawing.picture())
 }
 
-fn point((value, is_outside): (Option<isolux::map::Illuminance>, &bool)) -> PlanPoint {
-    let value = value.filter(|_| !is_outside);
+fn point(value: Option<isolux::map::Illuminance>) -> PlanPoint {
     let lx = value.map(|value| value.illuminance_lx());
     let error_lx = value.map_or(0.0, |value| value.standard_error_lx);
     // Whole lux are enough on a plan, unless there are few.
@@ -49,8 +48,8 @@ fn heading(scene: &Scene, result: &GridResult) -> (String, Vec<String>) {
     let counts = grid.counts();
     about.push(format!("{} x {} points", counts[0], counts[1]));
     about.push(match grid.maintenance_factor {
-        1.0 => "initial values".to_owned(),
-        factor => format!("maintenance factor {}", significant(factor, 2)),
+        1.0 => format!("values {}", Maintained::of(scene).text()),
+        factor => format!("values maintained, maintenance factor {}", significant(factor, 2)),
     });
     let mut lines = vec![about.join("  \u{b7}  ")];
     if let Some(f) = result.read.figures {
@@ -66,7 +65,7 @@ fn heading(scene: &Scene, result: &GridResult) -> (String, Vec<String>) {
     let outside = result.outside.count();
     if outside > 0 {
         let points = counted(outside, "point", "points");
-        lines.push(format!("{points} outside of the room count as 0 lx in these figures"));
+        lines.push(format!("{points} outside of the room are left out"));
     }
     (name(title), lines)
 }

@@ -20,7 +20,7 @@ impl GridResult {
         let on_surface =
             |&position: &Point| reader.is_on_surface(ProbePoint { position, normal: read.normal });
         let in_space = !read.points.iter().all(on_surface);
-        let outside = Outside::of((&read.points, &read.values), read.normal, reader);
+        let outside = Outside::of(&read, reader);
         Self { read, in_space, outside }
     }
 }

@@ -1,22 +1,19 @@
 //! What a grid does not say by its figures.
 
+use crate::grid_values::GridValues;
 use crate::notes::{Note, note};
 use crate::quantity::show_share;
 use crate::shown::name;
-use isolux::engine::{MapReader, ProbePoint};
-use isolux::geometry::{Normal, Point};
+use isolux::engine::MapReader;
 use isolux::map::Illuminance;
 use isolux_formats::counted;
-use rayon::prelude::*;
 
 /// Caustics of less than this share of all light are not worth a word.
 const TOLD_FROM: f64 = 1e-3;
 
-/// Points that get no light at all and see nothing that does: as those behind the walls of a room.
+/// Points outside of the room.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Outside {
-    /// Of every point whether it is one.
-    pub(super) points: Vec<bool>,
     /// Within the bounds of the scene.
     within_bounds: usize,
     /// And those beyond.
@@ -24,20 +21,11 @@ pub(super) struct Outside {
 }
 
 impl Outside {
-    pub(super) fn of(
-        (points, values): (&[Point], &[Option<Illuminance>]),
-        normal: Normal,
-        reader: &MapReader,
-    ) -> Self {
-        let is_outside = |(&position, value): (&Point, &Option<Illuminance>)| {
-            let is_dark = value.is_some_and(|value| value.illuminance_lx() == 0.0);
-            is_dark && !reader.sees_lit(ProbePoint { position, normal })
-        };
-        let are_outside: Vec<bool> = points.par_iter().zip(values).map(is_outside).collect();
-        let outside = || points.iter().zip(&are_outside).filter(|(_, is_outside)| **is_outside);
-        let count = outside().count();
+    pub(super) fn of(read: &GridValues, reader: &MapReader) -> Self {
+        let all = read.points.iter().zip(&read.are_outside);
+        let outside = || all.clone().filter(|(_, is_outside)| **is_outside);
         let beyond_bounds = outside().filter(|(point, _)| reader.is_beyond_bounds(**point)).count();
-        Self { points: are_outside, within_bounds: count - beyond_bounds, beyond_bounds }
+        Self { within_bounds: outside().count() - beyond_bounds, beyond_bounds }
     }
 
     pub(super) const fn count(&self) -> usize {
@@ -73,7 +61,7 @@ pub(super) fn warn(
             show_share(caustics)
         ));
     }
-    let unknown = values.iter().filter(|value| value.is_none()).count();
+    let unknown = values.iter().filter(|value| value.is_none()).count() - outside.count();
     if unknown > 0 {
         let are = counted(all, "point is", "points are");
         warn(format!("{unknown} of {are} left out, inside an object or where no light reaches"));
@@ -87,8 +75,8 @@ pub(super) fn warn(
         );
     } else if dark > 0 {
         warn(format!(
-            "{dark} of {all} points get no light and see nothing that is lit, as outside of walls ({}), and count \
-             as 0 lx in all figures; shrink or move the grid so that it lies within its room, or widen its border",
+            "{dark} of {all} points get no light and see nothing that is lit, as outside of walls ({}), and are \
+             left out of all figures",
             outside.place()
         ));
     }

@@ -9,6 +9,7 @@ use crate::exposed;
 use crate::failure::{Failure, Outcome};
 use crate::flags::RenderFlags;
 use crate::look::Look;
+use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::viewpoint::NamedView;
 use isolux_formats::luminance::{Luminances, encode_exr, encode_radiance};
@@ -37,11 +38,18 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
             Err(other) => return Err(other),
         }
     }
-    if !drawn.is_empty() {
-        let report = Report::of(drawn);
-        if json { print_json(&report)? } else { print(&report.text())? }
+    if drawn.is_empty() {
+        return Err(Failure::BadInput(problems));
     }
-    if problems.is_empty() { Ok(Outcome::Done) } else { Err(Failure::BadInput(problems)) }
+    problems.iter().for_each(|problem| note(Note::Error, &problem.message));
+    let outcome = if problems.is_empty() { Outcome::Done } else { Outcome::Unusable };
+    let report = Report::of(drawn, problems);
+    if json {
+        print_json(&report)?
+    } else {
+        print(&report.text())?
+    }
+    Ok(outcome)
 }
 
 /// Writes the files of a view.

@@ -5,6 +5,7 @@ use crate::cached_view::CacheUse;
 use crate::console::facts;
 use crate::quantity::show_share;
 use crate::shown::name;
+use crate::trouble::Trouble;
 use isolux_view::Gathered;
 use serde::Serialize;
 
@@ -13,7 +14,12 @@ use serde::Serialize;
 #[serde(untagged)]
 pub(super) enum Report {
     One(Box<ViewReport>),
-    Several { views: Vec<ViewReport> },
+    Several {
+        views: Vec<ViewReport>,
+        /// Why there is no picture of other cameras.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        problems: Vec<Trouble>,
+    },
 }
 
 /// A view that has been drawn.
@@ -42,12 +48,13 @@ pub(super) struct Indirect {
 }
 
 impl Report {
-    pub(super) fn of(mut views: Vec<ViewReport>) -> Self {
+    /// The views that are drawn, and why others are not.
+    pub(super) fn of(mut views: Vec<ViewReport>, problems: Vec<Trouble>) -> Self {
         match views.pop() {
-            Some(one) if views.is_empty() => Self::One(Box::new(one)),
+            Some(one) if views.is_empty() && problems.is_empty() => Self::One(Box::new(one)),
             last => {
                 views.extend(last);
-                Self::Several { views }
+                Self::Several { views, problems }
             }
         }
     }
@@ -55,7 +62,7 @@ impl Report {
     pub(super) fn text(&self) -> String {
         match self {
             Self::One(view) => view.text(),
-            Self::Several { views } => {
+            Self::Several { views, .. } => {
                 views.iter().map(ViewReport::text).collect::<Vec<String>>().join("\n")
             }
         }

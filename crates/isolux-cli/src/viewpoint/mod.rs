@@ -12,6 +12,9 @@ use isolux::scene::{Camera, Scene, UpAxis};
 use isolux_view::{Projection, View};
 use overview::{Gaze, VERTICAL_FOV_RAD, gaze, overview, up_of};
 
+/// The sine of the steepest way from an eye to the middle of the scene that it looks along if it has no target.
+const STEEPEST: f64 = 0.95;
+
 /// A view and the name of its camera.
 #[derive(Clone, Debug)]
 pub(crate) struct NamedView {
@@ -69,7 +72,8 @@ fn perspectives(
     }
 }
 
-/// The view from an eye, which looks at its target, or at the middle of the scene.
+/// The view from an eye, which looks at its target, or at the middle of the scene, or ahead where that is almost straight above
+/// or below.
 fn eye_of(scene: &Scene, position: [f64; 3], flags: &EyeFlags) -> Result<View, String> {
     let point = |[x, y, z]: [f64; 3]| Point::new(x, y, z);
     let middle = || scene.bvh().mesh().bounds().map_or(Point::ORIGIN, |(a, b)| a.lerp(b, 0.5));
@@ -77,10 +81,12 @@ fn eye_of(scene: &Scene, position: [f64; 3], flags: &EyeFlags) -> Result<View, S
     let towards = flags.target.map_or_else(middle, point) - position;
     let up = flags.up.map_or_else(|| up_of(scene).to_vector(), |[x, y, z]| Vector::new(x, y, z));
     let vertical_rad = flags.fov.map_or(VERTICAL_FOV_RAD, f64::to_radians);
-    // Who looks all around needs no target, even straight above or below the middle.
-    let found = match gaze(towards, up) {
-        Err(_) if flags.panorama && flags.target.is_none() => gaze(ahead(scene), up),
-        found => found,
+    // Who stands above or below the middle looks ahead.
+    let rise = towards.dot(up).abs() / (towards.length() * up.length()).max(f64::MIN_POSITIVE);
+    let is_steep = towards.length() == 0.0 || rise > STEEPEST;
+    let found = match flags.target.is_none() && is_steep {
+        true => gaze(ahead(scene), up),
+        false => gaze(towards, up),
     };
     let Gaze { direction, up } = found
         .map_err(|problem| format!("--eye: {problem}; give another --target, or --up X,Y,Z"))?;

@@ -11,6 +11,9 @@ const MOST_BYTES: u64 = 1 << 20;
 /// The types of views that are drawn, as written after `-vt`.
 const TYPES: [&str; 5] = ["v", "l", "h", "a", "c"];
 
+/// The other options of a view.
+const OPTIONS: [&str; 9] = ["-vp", "-vd", "-vu", "-vh", "-vv", "-vo", "-va", "-vs", "-vl"];
+
 /// A view as options say it, each with the value that it has in Radiance unless it is given.
 #[derive(Clone, Debug)]
 struct Options {
@@ -37,7 +40,7 @@ impl Default for Options {
 
 /// The view of a view file, with the options beside it, or what is wrong with them. Nothing if neither is given.
 pub(super) fn asked(flags: &RadianceFlags) -> Result<Option<View>, String> {
-    let RadianceFlags { radiance_view, vt, vp, vd, vu, vh, vv } = flags;
+    let RadianceFlags { radiance_view, vt, vp, vd, vu, vh, vv, .. } = flags;
     let is_given =
         [vp, vd, vu].iter().any(|option| option.is_some()) || vh.or(*vv).is_some() || vt.is_some();
     let mut options = match radiance_view {
@@ -78,17 +81,25 @@ fn drawn() -> String {
 /// The options of a view file, or what is wrong with it.
 fn read(path: &Path) -> Result<Options, String> {
     let cannot = |problem: String| format!("{}: {problem}", path.display());
-    let size = std::fs::metadata(path).map_err(|e| cannot(format!("cannot be read ({e})")))?.len();
+    let unreadable = |e: std::io::Error| match e.kind() {
+        std::io::ErrorKind::NotFound => cannot("does not exist; check the name".to_owned()),
+        _ => cannot(format!("cannot be read ({e})")),
+    };
+    let size = std::fs::metadata(path).map_err(unreadable)?.len();
     if size > MOST_BYTES {
         return Err(cannot("is too large for a view file of Radiance".to_owned()));
     }
-    let bytes = std::fs::read(path).map_err(|e| cannot(format!("cannot be read ({e})")))?;
+    let bytes = std::fs::read(path).map_err(unreadable)?;
     parsed(&String::from_utf8_lossy(&bytes)).map_err(cannot)
 }
 
 /// The options of the last view of a text. Each counts from where it stands, as in Radiance.
 fn parsed(text: &str) -> Result<Options, String> {
-    let line = text.lines().rfind(|line| line.contains("-v")).ok_or_else(|| {
+    let is_option = |word: &str| {
+        OPTIONS.contains(&word) || word.strip_prefix("-vt").is_some_and(|of| of.len() == 1)
+    };
+    let has_view = |line: &&str| line.split_whitespace().any(is_option);
+    let line = text.lines().rfind(has_view).ok_or_else(|| {
         "has no view; a view file of Radiance has a line as `rvu -vtv -vp 0 0 1.6 -vd 0 1 0`"
             .to_owned()
     })?;
@@ -206,6 +217,7 @@ mod tests {
             ("rvu -vtl -vv -3", "a length above 0"),
             ("rvu -vtv -vo 2", "-vo"),
             ("nothing here", "no view"),
+            ("hello -v world", "no view"),
         ] {
             let refused = view(text).unwrap_err();
             assert!(refused.contains(word), "{text}: {refused}");

@@ -86,7 +86,7 @@ fn points_beyond_walls_have_no_value_on_a_plan() {
     let wide = ["--corner", "0,0,0.75", "--u", "8,0,0", "--v", "0,4,0", "--spacing", "1"];
     let svg = drawn(&home, &wide);
     let texts = texts(&svg);
-    let told = texts.iter().find(|text| text.contains("outside of the room count as 0 lx"));
+    let told = texts.iter().find(|text| text.contains("outside of the room are left out"));
     assert!(told.is_some_and(|text| text.starts_with("8 points")), "{texts:?}");
     assert_eq!(texts.iter().filter(|text| **text == "0").count(), 2, "on the axes: {texts:?}");
 }
