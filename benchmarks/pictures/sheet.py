@@ -20,7 +20,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SIZE = (480, 270)
+SIZE = (400, 225)
 MARGIN = 28
 # The darkest and brightest of the colours of differences: none, and one of 10.
 MOST_SHOWN = 10.0
@@ -29,7 +29,7 @@ MOST_SHOWN = 10.0
 def main():
     flags = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     flags.add_argument("--isolux", default="isolux")
-    flags.add_argument("--samples", type=int, default=256, help="paths a pixel of Mitsuba")
+    flags.add_argument("--samples", type=int, default=144, help="paths a pixel of Mitsuba")
     flags.add_argument("-o", "--output", required=True)
     flags = flags.parse_args()
     mi.set_variant("scalar_rgb")
