@@ -8,7 +8,6 @@ use crate::elements::{Elements, Origin};
 use crate::engine::gather::Gatherer;
 use crate::engine::light::{Goal, Measured};
 use crate::engine::mesh::{Carriers, Details, LeafError, trust};
-use crate::engine::ray::reflectance;
 use crate::sampling::Sequence;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -116,8 +115,7 @@ impl Pilot<'_> {
         let mean =
             |power: i32| some.iter().map(|&(m2, lx)| m2 * lx.powi(power)).sum::<f64>() / area_m2;
         let (mean_lx, square) = (mean(1), mean(2));
-        let reflectance =
-            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_MEAN_REFLECTANCE);
+        let reflectance = self.mean_reflectance().min(MOST_MEAN_REFLECTANCE);
         let whole_lx = mean_lx / (1.0 - reflectance);
         let varies = (square - mean_lx * mean_lx).max(0.0);
         self.direct.noise_lx = Some(share * (varies + whole_lx * whole_lx).sqrt());
@@ -182,8 +180,7 @@ impl Pilot<'_> {
 
     /// The ratio of reflected to direct light in a closed room.
     pub(super) fn reflected_again(&self) -> f64 {
-        let reflectance =
-            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_MEAN_REFLECTANCE);
+        let reflectance = self.mean_reflectance().min(MOST_MEAN_REFLECTANCE);
         reflectance / (1.0 - reflectance)
     }
 

@@ -13,6 +13,7 @@ use crate::engine::mesh::{Carriers, Details, bisect_to_scale};
 use crate::engine::occlusion::{ClosedIn, Footprints};
 use crate::engine::particle::{Aim, CausticNoise};
 use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::reflectance::Reflectances;
 use crate::map::Standing;
 use crate::sampling::Key;
 use crate::scene::Scene;
@@ -84,6 +85,8 @@ pub(super) struct Pilot<'s> {
 /// The elements so far, with the limits of their refinement.
 pub(super) struct Mesh {
     pub(super) subdivision: Subdivision,
+    /// What its elements reflect.
+    pub(super) reflectances: Reflectances,
     /// The vertices that carry indirect light.
     pub(super) carriers: Carriers,
     /// The largest distance between the coarsest carriers, m; zero where every vertex carries light.
@@ -232,6 +235,7 @@ impl<'s> Pilot<'s> {
         let (bright, traced) = BrightSurfaces::of(scene, lighting, request.seed);
         let mesh = Mesh {
             subdivision,
+            reflectances: Reflectances::default(),
             carriers: Carriers::all(),
             spacing_m: if request.is_fitted { COARSEST_SPACING_EDGES * edge_m } else { 0.0 },
             rays,
@@ -258,6 +262,11 @@ impl<'s> Pilot<'s> {
             traced,
             is_whole: true,
         }
+    }
+
+    /// The mean reflectance of all surfaces, weighted by area.
+    pub(super) fn mean_reflectance(&self) -> f64 {
+        self.mesh.reflectances.of_all(self.scene, &self.mesh.subdivision)
     }
 
     pub(super) fn gatherers(&self) -> Vec<Gatherer> {

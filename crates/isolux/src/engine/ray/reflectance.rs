@@ -6,6 +6,7 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::Triangle;
 use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 
 /// Places in an element at which its texture is sampled.
 const TEXTURE_PLACES: u32 = 16;
@@ -30,16 +31,34 @@ pub(crate) fn of_part(scene: &Scene, origin: &Origin, part: &Triangle, number: u
     (0..TEXTURE_PLACES).map(at).sum::<Rgb>() / f64::from(TEXTURE_PLACES)
 }
 
-/// Mean photometric diffuse reflectance of all surfaces, weighted by area.
-pub(crate) fn of_all(scene: &Scene, subdivision: &Subdivision) -> f64 {
-    let of_leaf = |node: u32| {
-        let part = subdivision.triangle(node);
-        let m2 = part.area();
-        (m2, m2 * of_part(scene, &subdivision.node(node).1, &part, node).luminance())
-    };
-    let leaves: Vec<u32> = subdivision.leaves().collect();
-    let all: Vec<(f64, f64)> = leaves.into_par_iter().with_min_len(256).map(of_leaf).collect();
-    let (area_m2, reflected_m2) =
-        all.iter().fold((0.0, 0.0), |(m2, all), of| (m2 + of.0, all + of.1));
-    reflected_m2 / area_m2
+/// Photometric diffuse reflectances of elements, each evaluated when it is first asked for.
+#[derive(Debug, Default)]
+pub(crate) struct Reflectances(Mutex<Vec<Option<f64>>>);
+
+impl Reflectances {
+    /// Mean reflectance of all surfaces, weighted by area. All calls are about one subdivision, which may be refined.
+    pub(crate) fn of_all(&self, scene: &Scene, subdivision: &Subdivision) -> f64 {
+        let leaves: Vec<u32> = subdivision.leaves().collect();
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let nodes = leaves.iter().max().map_or(0, |&node| node as usize + 1);
+        let nodes = nodes.max(known.len());
+        known.resize(nodes, None);
+        let of_node = |node: u32| {
+            let part = subdivision.triangle(node);
+            of_part(scene, &subdivision.node(node).1, &part, node).luminance()
+        };
+        let is_new = |node: &u32| known[*node as usize].is_none();
+        let new: Vec<u32> = leaves.iter().copied().filter(is_new).collect();
+        let found: Vec<f64> = new.par_iter().with_min_len(256).map(|&node| of_node(node)).collect();
+        for (node, reflectance) in new.into_iter().zip(found) {
+            known[node as usize] = Some(reflectance);
+        }
+        let (mut area_m2, mut reflected_m2) = (0.0, 0.0);
+        for node in leaves {
+            let m2 = subdivision.triangle(node).area();
+            area_m2 += m2;
+            reflected_m2 += m2 * known[node as usize].unwrap_or(0.0);
+        }
+        reflected_m2 / area_m2
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::elements::Subdivision;
-use crate::engine::ray::reflectance;
+use crate::engine::ray::reflectance::Reflectances;
 use crate::scene::Texture;
 
 #[test]
@@ -23,7 +23,15 @@ fn textures_count() {
     let scene = Scene::assemble(parts).unwrap();
     let mut subdivision = Subdivision::new(&scene);
     subdivision.bisect_to(0.2, usize::MAX);
-    let found = reflectance::of_all(&scene, &subdivision);
+    let reflectances = Reflectances::default();
+    let found = reflectances.of_all(&scene, &subdivision);
+    assert_eq!(reflectances.of_all(&scene, &subdivision), found);
+    // Elements that are made later count, too.
+    let [mut refined, fresh] = [subdivision.clone(), subdivision.clone()];
+    refined.bisect_to(0.1, usize::MAX);
+    assert_ne!(refined.vertex_count(), fresh.vertex_count());
+    let of_new = Reflectances::default().of_all(&scene, &refined);
+    assert_eq!(reflectances.of_all(&scene, &refined), of_new);
     // 16 places in each of some hundred elements of a linear ramp from one to the other.
     let mean = scene.textures()[0].mean().luminance();
     assert!((found - mean).abs() < 0.01 * mean, "{found} for {mean}");

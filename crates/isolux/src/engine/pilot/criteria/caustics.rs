@@ -21,7 +21,7 @@ use crate::engine::pilot::direct::MOST_MEAN_REFLECTANCE;
 use crate::engine::pilot::forecast::{FINE_EXCESS, GoOn};
 use crate::engine::pilot::look::{PilotRequest, Survey};
 use crate::engine::pilot::state::{Pilot, SHARP_EDGE_SHARE};
-use crate::engine::ray::{Noise, reflectance};
+use crate::engine::ray::Noise;
 use crate::map::Standing;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -305,8 +305,7 @@ impl Pilot<'_> {
             lm += m2 * (other_lx + sum / n);
             caustic_lm += m2 * sum / n;
         }
-        let reflectance =
-            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_MEAN_REFLECTANCE);
+        let reflectance = self.mean_reflectance().min(MOST_MEAN_REFLECTANCE);
         let reflected_lx = caustic_lm / area_m2 * reflectance / (1.0 - reflectance);
         let squares = squares + 2.0 * reflected_lx * lm + reflected_lx * reflected_lx * area_m2;
         let flux_lm = lm + reflected_lx * area_m2;
