@@ -43,6 +43,8 @@ async function probed({ command, at }, map, { position, normal }) {
 async function pinAt(page, [x, y]) {
   const before = await page.locator('.pin-label').count();
   const box = await page.locator('#view').boundingBox();
+  // Once the pointer is here, the page asks of no other place.
+  await page.mouse.move(box.x + x, box.y + y);
   const answer = page.waitForResponse((response) => response.url().includes('api/read'));
   await page.mouse.click(box.x + x, box.y + y);
   const { readings } = await (await answer).json();
@@ -138,6 +140,8 @@ async function saved(page) {
 
 /** Pins are amber discs, where the page has them. */
 async function picture({ page }) {
+  // New labels are placed with the next picture.
+  await until(page, () => [...document.querySelectorAll('.pin-label')].every((label) => label.style.transform));
   const file = await saved(page);
   const places = await page.evaluate(() => {
     const view = document.getElementById('view').getBoundingClientRect();

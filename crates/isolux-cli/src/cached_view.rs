@@ -6,6 +6,7 @@ use crate::interrupt::Interrupt;
 use crate::meter::Meter;
 use crate::notes::{Note, note};
 use crate::quantity::{show_count, show_seconds};
+use crate::traced::SETTINGS;
 use isolux::engine::{
     CacheReader, CacheSettings, CachedPlace, IrradianceCache, SampleKind, Served,
 };
@@ -72,10 +73,9 @@ pub(crate) fn look(
              solve for a map to see it",
         );
     }
-    let settings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
     let asked = Mutex::new(Vec::new());
     // A first look in the dark finds what is in view; it costs little, as no light is evaluated, that of luminaires in gloss neither.
-    let in_the_dark = TraceSettings { highlights: false, ..settings };
+    let in_the_dark = TraceSettings { highlights: false, ..SETTINGS };
     let ask = |at: SurfacePoint| {
         asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(place(at));
         None
@@ -93,7 +93,7 @@ pub(crate) fn look(
     let mut meter = Meter::new("view", None);
     let read = |at: SurfacePoint| reader.glance(&place(at), 0);
     let watch = &mut |share| meter.tell(share);
-    let view = trace_watched(scene, view, size, &settings, (&read, watch));
+    let view = trace_watched(scene, view, size, &SETTINGS, (&read, watch));
     let view = view.map_err(Failure::bad_input)?;
     let count = |cache: &IrradianceCache| cache.samples.len();
     let found = CacheUse {

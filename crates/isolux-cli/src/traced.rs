@@ -10,7 +10,8 @@ use isolux_view::{
 };
 
 /// Walls of one side only are looked through from outside.
-const SETTINGS: TraceSettings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
+pub(crate) const SETTINGS: TraceSettings =
+    TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
 
 /// Traces a view over a map: direct light evaluated afresh, indirect light gathered where the map is not to be trusted.
 pub(crate) fn view(

@@ -8,6 +8,7 @@ mod counted;
 mod digits;
 mod efficacy;
 pub mod export;
+mod exr_layer;
 mod extent;
 mod findings;
 pub mod gltf;

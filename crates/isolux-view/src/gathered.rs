@@ -172,7 +172,7 @@ impl<'a> PixelLight<'a> {
         let place = |number: usize| on_side(middles.place(number));
         let sight = |from: usize, to: usize| reader.sees(place(from), place(to));
         let wanted = pixels.wanted();
-        let (blocks, asked) = Blocks::of(wanted);
+        let (blocks, asked) = Blocks::of(wanted, middles.count());
         let mut net = Net::new(asked, FINENESS, Box::new(sight));
         let mut done = 0.0;
         let gather = |numbers: &[usize], more: f64| -> Result<Vec<_>, Infallible> {
@@ -312,24 +312,24 @@ impl<'a> PixelLight<'a> {
 /// Blocks of pixels on one piece of surface. One pixel of each stands for all of them.
 struct Blocks {
     wanted: Vec<Wanted>,
-    /// For each wanted pixel, the one that stands for its block.
-    standing: HashMap<usize, usize>,
+    /// Of every middle, if its light is wanted: its piece of surface, and the middle that stands for its block.
+    of_middles: Vec<Option<(u64, usize)>>,
 }
 
 impl Blocks {
     /// The blocks of wanted pixels, and the pixels that stand for them.
-    fn of(wanted: Vec<Wanted>) -> (Self, Vec<Wanted>) {
+    fn of(wanted: Vec<Wanted>, middles: usize) -> (Self, Vec<Wanted>) {
         let mut first: HashMap<(u64, [usize; 2]), usize> = HashMap::new();
-        let (mut standing, mut asked) = (HashMap::with_capacity(wanted.len()), Vec::new());
+        let (mut of_middles, mut asked) = (vec![None; middles], Vec::new());
         for of in &wanted {
             let at = of.at.map(|at| at / BLOCK_WIDTH);
-            let number = *first.entry((of.kind, at)).or_insert_with(|| {
+            let standing = *first.entry((of.kind, at)).or_insert_with(|| {
                 asked.push(Wanted { at, ..*of });
                 of.number
             });
-            standing.insert(of.number, number);
+            of_middles[of.number] = Some((of.kind, standing));
         }
-        (Self { wanted, standing }, asked)
+        (Self { wanted, of_middles }, asked)
     }
 
     /// The light of all pixels: the mean of the blocks of those about on the same piece of surface, so that blocks are not seen.
@@ -338,27 +338,22 @@ impl Blocks {
         filled: &[Filled],
         middles: &Middles,
     ) -> Vec<(usize, Option<IndirectReading>)> {
-        let light: HashMap<usize, IndirectReading> =
-            filled.iter().filter_map(|f| Some((f.number, f.reading?))).collect();
-        let kinds: HashMap<usize, u64> =
-            self.wanted.iter().map(|of| (of.number, of.kind)).collect();
+        let mut light: Vec<Option<IndirectReading>> = vec![None; self.of_middles.len()];
+        filled.iter().for_each(|filled| light[filled.number] = filled.reading);
         let of_pixel = |of: &Wanted| {
-            let own = light.get(&self.standing[&of.number])?;
-            let path = middles.place(of.number).path;
-            let near = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
-            let pixels = near(of.at[1], middles.height())
-                .flat_map(|y| near(of.at[0], middles.width()).map(move |x| [x, y]));
+            let (kind, standing) = self.of_middles[of.number]?;
+            let own = light[standing]?;
+            let SurfacePoint { pixel, path, .. } = *middles.place(of.number);
+            let is_alike = |(other_kind, _): &(u64, usize)| *other_kind == kind;
             let (mut sum, mut count) = (Rgb::BLACK, 0.0);
-            for [x, y] in pixels {
-                let Some(other) = middles.by_path(y * middles.width() + x, path) else { continue };
-                if kinds.get(&other) == Some(&of.kind)
-                    && let Some(reading) = light.get(&self.standing[&other])
-                {
+            for other in middles.within(pixel, 1, path) {
+                let block = self.of_middles[other].filter(is_alike);
+                if let Some(reading) = block.and_then(|(_, standing)| light[standing]) {
                     sum += reading.lx;
                     count += 1.0;
                 }
             }
-            Some(IndirectReading { lx: sum / count, ..*own })
+            Some(IndirectReading { lx: sum / count, ..own })
         };
         self.wanted.par_iter().map(|of| (of.number, of_pixel(of))).collect()
     }

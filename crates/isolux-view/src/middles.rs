@@ -52,8 +52,32 @@ impl Middles {
     }
 
     /// The place that a pixel shows by some way over mirrors and panes.
-    pub(crate) fn by_path(&self, pixel: usize, path: u32) -> Option<usize> {
+    fn by_path(&self, pixel: usize, path: u32) -> Option<usize> {
         self.of_pixel(pixel).find(|&number| self.places[number].path == path)
+    }
+
+    /// Row and column of a pixel.
+    pub(crate) fn row_and_column(&self, pixel: usize) -> [usize; 2] {
+        [pixel / self.width(), pixel % self.width()]
+    }
+
+    /// The place that the pixel in a row and column shows by some way; `None` outside of the view, too.
+    pub(crate) fn at(&self, [row, column]: [usize; 2], path: u32) -> Option<usize> {
+        let is_inside = row < self.height() && column < self.width();
+        is_inside.then(|| self.by_path(row * self.width() + column, path)).flatten()
+    }
+
+    /// The places that the pixels of a square about one show by some way.
+    pub(crate) fn within(
+        &self,
+        pixel: usize,
+        reach: usize,
+        path: u32,
+    ) -> impl Iterator<Item = usize> + '_ {
+        let [rows, columns] =
+            self.row_and_column(pixel).map(|at| at.saturating_sub(reach)..at + reach + 1);
+        let pixels = rows.flat_map(move |y| columns.clone().map(move |x| [y, x]));
+        pixels.filter_map(move |at| self.at(at, path))
     }
 
     /// Whether two places belong to one smooth piece of surface, seen by one way.
@@ -86,7 +110,8 @@ impl Middles {
     /// The place that stands for another in its pixel: that of the middle, or, if that shows another surface, the
     /// nearest of the same surface that the middle of one of the pixels around shows.
     pub(crate) fn standing(&self, at: &SurfacePoint, surface: &Surface) -> Option<usize> {
-        let own = self.of_pixel(at.pixel).find(|&number| self.shows(number, at, surface));
+        let own = self.by_path(at.pixel, at.path);
+        let own = own.filter(|&number| self.shows(number, at, surface));
         own.or_else(|| self.nearest(self.around(at, surface), surface))
     }
 
@@ -96,14 +121,7 @@ impl Middles {
         at: &'a SurfacePoint,
         surface: &'a Surface,
     ) -> impl Iterator<Item = usize> + 'a {
-        let (width, height) = (self.width(), self.height());
-        let near = |at: usize, size: usize| at.saturating_sub(1)..(at + 2).min(size);
-        let columns = near(at.pixel % width, width);
-        let pixels = near(at.pixel / width, height)
-            .flat_map(move |y| columns.clone().map(move |x| y * width + x));
-        pixels
-            .flat_map(|pixel| self.of_pixel(pixel))
-            .filter(move |&number| self.shows(number, at, surface))
+        self.within(at.pixel, 1, at.path).filter(move |&number| self.shows(number, at, surface))
     }
 
     /// The nearest of some places.

@@ -2,14 +2,12 @@
 
 use super::error::LightmapFileError;
 use super::target::Convention;
-use exr::image::write::WritableImage;
-use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer};
-use exr::meta::attribute::{AttributeValue, Chromaticities, LineOrder, Text};
+use crate::exr_layer;
+use exr::image::{AnyChannel, FlatSamples};
+use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::LayerAttributes;
-use exr::prelude::Compression;
 use isolux::lightmap::{Cover, Lightmap};
 use serde::Serialize;
-use std::io::Cursor;
 
 /// The name of the attribute that says what the numbers are.
 const ATTRIBUTE: &str = "isolux";
@@ -58,28 +56,8 @@ pub fn write_exr(
         channel("standard_error.Y", range.clone().map(error).collect()),
         channel("coverage.Y", range.map(coverage).collect()),
     ];
-    let encoding = Encoding {
-        compression: Compression::ZIP16,
-        blocks: Blocks::ScanLines,
-        line_order: LineOrder::Increasing,
-    };
-    let layer = Layer::new(
-        size,
-        attributes(lightmap, page, convention),
-        encoding,
-        AnyChannels::sort(channels.into_iter().collect()),
-    );
-    let mut image = Image::from_layer(layer);
-    image.attributes.chromaticities = Some(Chromaticities {
-        red: (0.64, 0.33).into(),
-        green: (0.3, 0.6).into(),
-        blue: (0.15, 0.06).into(),
-        white: (0.3127, 0.329).into(),
-    });
-    let mut bytes = Cursor::new(Vec::new());
-    let written = image.write().non_parallel().to_buffered(&mut bytes);
-    written.map_err(|error| LightmapFileError::Exr(error.to_string()))?;
-    Ok(bytes.into_inner())
+    let attributes = attributes(lightmap, page, convention);
+    exr_layer::encode(size, attributes, channels.into()).map_err(LightmapFileError::Exr)
 }
 
 fn attributes(lightmap: &Lightmap, page: u32, convention: &Convention) -> LayerAttributes {

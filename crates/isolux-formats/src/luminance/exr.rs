@@ -1,12 +1,10 @@
 //! OpenEXR in 32-bit floats, lossless.
 
 use super::{LuminanceError, Luminances, MEANING};
-use exr::image::write::WritableImage;
-use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer};
-use exr::meta::attribute::{Chromaticities, LineOrder, Text};
+use crate::exr_layer;
+use exr::image::{AnyChannel, FlatSamples};
+use exr::meta::attribute::Text;
 use exr::meta::header::LayerAttributes;
-use exr::prelude::Compression;
-use std::io::Cursor;
 
 /// The bytes of an OpenEXR file: `R`, `G`, `B` in cd/m2, the chromaticities of Rec. 709, and `whiteLuminance` 1, which says
 /// that a value of 1 is 1 cd/m2. The same picture gives the same bytes.
@@ -17,11 +15,6 @@ pub fn encode(picture: &Luminances<'_>) -> Result<Vec<u8>, LuminanceError> {
         AnyChannel::new(name, FlatSamples::F32(values))
     };
     let channels = [channel("R", 0), channel("G", 1), channel("B", 2)];
-    let encoding = Encoding {
-        compression: Compression::ZIP16,
-        blocks: Blocks::ScanLines,
-        line_order: LineOrder::Increasing,
-    };
     let attributes = LayerAttributes {
         comments: Text::new_or_none(MEANING),
         software_name: Text::new_or_none(concat!("isolux ", env!("CARGO_PKG_VERSION"))),
@@ -29,25 +22,14 @@ pub fn encode(picture: &Luminances<'_>) -> Result<Vec<u8>, LuminanceError> {
         ..LayerAttributes::default()
     };
     let size = (picture.width as usize, picture.height as usize);
-    let layer =
-        Layer::new(size, attributes, encoding, AnyChannels::sort(channels.into_iter().collect()));
-    let mut image = Image::from_layer(layer);
-    image.attributes.chromaticities = Some(Chromaticities {
-        red: (0.64, 0.33).into(),
-        green: (0.3, 0.6).into(),
-        blue: (0.15, 0.06).into(),
-        white: (0.3127, 0.329).into(),
-    });
-    let mut bytes = Cursor::new(Vec::new());
-    let written = image.write().non_parallel().to_buffered(&mut bytes);
-    written.map_err(|error| LuminanceError::Exr(error.to_string()))?;
-    Ok(bytes.into_inner())
+    exr_layer::encode(size, attributes, channels.into()).map_err(LuminanceError::Exr)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use exr::prelude::{ReadChannels, ReadLayers};
+    use std::io::Cursor;
 
     #[test]
     fn pixels_come_back_with_every_digit() {

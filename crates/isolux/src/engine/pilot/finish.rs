@@ -10,7 +10,6 @@ use crate::engine::gather::{Gatherer, RayTrial, areas_m2};
 use crate::engine::mesh::Fit;
 use crate::engine::occlusion::{Barriers, Side};
 use crate::engine::plan::{Plan, PlannedErrors, PlannedLight, PlannedMesh, PlannedNoise};
-use crate::engine::ray::reflectance::Reflectances;
 use crate::map::Standing;
 
 impl<'s> Pilot<'s> {
@@ -81,7 +80,7 @@ impl<'s> Pilot<'s> {
             bright: self.bright,
             backdrop: self.walls.backdrop,
             reference_lx,
-            mean_reflectance: Reflectances::default().of_all(self.scene, &mesh.subdivision),
+            mean_reflectance: self.mesh.reflectances.of_all(self.scene, &mesh.subdivision),
         };
         Plan {
             scene: self.scene,

@@ -36,7 +36,8 @@ pub(crate) fn of_part(scene: &Scene, origin: &Origin, part: &Triangle, number: u
 pub(crate) struct Reflectances(Mutex<Vec<Option<f64>>>);
 
 impl Reflectances {
-    /// Mean reflectance of all surfaces, weighted by area. All calls are about one subdivision, which may be refined.
+    /// Mean reflectance of all surfaces, weighted by area. All calls are about one
+    /// subdivision, which may be refined meanwhile, or about a copy from before that.
     pub(crate) fn of_all(&self, scene: &Scene, subdivision: &Subdivision) -> f64 {
         let leaves: Vec<u32> = subdivision.leaves().collect();
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);

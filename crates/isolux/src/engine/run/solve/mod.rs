@@ -20,6 +20,9 @@ use std::mem;
 use std::sync::Arc;
 use std::time::Duration;
 
+/// The time of a round of refinement, in that of the one before it, at most: each has more elements.
+const NEXT_ROUND_RATIO: f64 = 2.0;
+
 /// Computes the illumination map of a scene, or continues from a saved state.
 ///
 /// `watch` is called after every round of the pilot and every increment. It may stop the run; the map is valid then,
@@ -33,9 +36,6 @@ pub fn solve(
 ) -> Result<Solution, SolveError> {
     solve_looked_at(scene, request, resume, &mut |progress, _| watch(progress))
 }
-
-/// The time of a round of refinement in the one before it, at most; each has more elements.
-const NEXT_ROUND_RATIO: f64 = 2.0;
 
 /// Predicts the size and time of a run from its pilot. The pilot ends before a round that would not be over after
 /// `patience`, but not before its first survey.
