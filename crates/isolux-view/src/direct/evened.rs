@@ -1,6 +1,6 @@
 //! Light of pixels without the noise that those about do not share, and the edges of shadows in it.
 
-use super::{DEVIATIONS, Node};
+use super::node::{DEVIATIONS, Node};
 use crate::middles::Middles;
 use crate::trace::SurfacePoint;
 use isolux::units::Rgb;

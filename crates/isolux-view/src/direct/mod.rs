@@ -6,6 +6,7 @@
 //! length once it is found anywhere. Pixels across the edge of a shadow are left to their cells.
 
 mod evened;
+mod node;
 mod square;
 
 use crate::image::Surface;
@@ -15,6 +16,7 @@ use evened::evened;
 use isolux::engine::{MapReader, ShadowRays};
 use isolux::map::IlluminationMap;
 use isolux::units::Rgb;
+use node::{DEVIATIONS, Node};
 use rayon::prelude::*;
 use square::{Square, WIDEST};
 use std::collections::BTreeSet;
@@ -22,8 +24,6 @@ use std::collections::BTreeSet;
 /// The difference from a prediction that is accepted, as a share of all light: half of what is seen (Weber's fraction is
 /// 1 to 2 % in good light).
 const SMOOTH: f64 = 0.01;
-/// The standard deviations up to which a difference may be noise.
-const DEVIATIONS: f64 = 2.5;
 /// The fewest shadow rays of a place.
 const FEWEST_RAYS: usize = 16;
 /// The most shadow rays of a place for each pixel of the square that it tells of.
@@ -36,15 +36,6 @@ pub(crate) struct DirectField<'a> {
     middles: &'a Middles,
     /// Direct light without caustics, lx; `None` across the edges of shadows.
     light: Vec<Option<Rgb>>,
-}
-
-/// Direct light at a place.
-#[derive(Clone, Copy)]
-struct Node {
-    lx: Rgb,
-    noise_lx: f64,
-    /// All light there, lx.
-    about_lx: f64,
 }
 
 /// Squares of one size.
@@ -251,8 +242,4 @@ impl Builder<'_> {
             })
             .collect()
     }
-}
-
-impl Node {
-    const DARK: Self = Self { lx: Rgb::BLACK, noise_lx: 0.0, about_lx: 0.0 };
 }
