@@ -64,7 +64,8 @@ fn sequences(mirrors: usize) -> Vec<Vec<usize>> {
 
 /// Light of one luminaire by way of these mirrors, in the order in which light meets them.
 fn by_way_of(scene: &Scene, luminaire: &Luminaire, way: &[&Mirror], at: ProbePoint) -> Rgb {
-    let LuminaireKind::Point { position, world_from_luminaire, intensity } = &luminaire.kind else {
+    let LuminaireKind::Point { position, world_from_luminaire, intensity, .. } = &luminaire.kind
+    else {
         return if way.is_empty() { parallel(scene, luminaire, at) } else { Rgb::BLACK };
     };
     let mut target = way.iter().fold(*position, |p, mirror| mirror.image(p));

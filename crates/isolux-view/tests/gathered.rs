@@ -61,6 +61,7 @@ fn room_with(block: Vec<Shape>, direction: Direction) -> (Scene, Camera) {
                 position: Point::new(2.0, 2.9, 2.8),
                 world_from_luminaire: Transform::IDENTITY,
                 intensity: IntensityDistribution::Isotropic { intensity_cd: 200.0 },
+                area: None,
             },
         }],
         ..SceneParts::default()

@@ -384,6 +384,7 @@ fn a_luminaire_without_surface_shows_on_a_rough_one() {
             position: Point::ORIGIN,
             world_from_luminaire: Transform::IDENTITY,
             intensity: IntensityDistribution::Isotropic { intensity_cd: 100.0 },
+            area: None,
         },
     };
     let materials = vec![diffuse(0.5), Material::one_sided("glossy", finish)];

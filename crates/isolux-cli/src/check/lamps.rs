@@ -60,7 +60,7 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
 
 fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
     let (position, world_from_luminaire, intensity) = match &luminaire.kind {
-        LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+        LuminaireKind::Point { position, world_from_luminaire, intensity, .. } => {
             (position, world_from_luminaire, intensity)
         }
         LuminaireKind::Directional { direction, .. } => {
@@ -272,6 +272,7 @@ mod tests {
                 position: Point::ORIGIN,
                 world_from_luminaire: Transform::IDENTITY,
                 intensity: IntensityDistribution::Isotropic { intensity_cd },
+                area: None,
             },
         };
         let luminaires = vec![luminaire];

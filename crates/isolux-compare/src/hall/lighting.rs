@@ -69,6 +69,7 @@ pub(super) fn luminaires(count: u32) -> Vec<Luminaire> {
                     position,
                     world_from_luminaire: world_from_luminaire(UpAxis::Z, -Direction::Z, c0_deg),
                     intensity: intensities[zone.lamp].clone(),
+                    area: None,
                 },
             });
         }

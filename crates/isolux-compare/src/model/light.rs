@@ -21,6 +21,6 @@ pub fn aimed(
     let (x, y) = z.frame();
     let columns = [x, y, z].map(Direction::to_vector);
     let world_from_luminaire = Transform { columns, translation: Vector::ZERO };
-    let kind = LuminaireKind::Point { position, world_from_luminaire, intensity };
+    let kind = LuminaireKind::Point { position, world_from_luminaire, intensity, area: None };
     Luminaire { name: name.into(), group: 0, colour: Rgb::WHITE, kind }
 }

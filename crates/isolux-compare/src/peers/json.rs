@@ -44,7 +44,7 @@ fn luminaire<'a>(lamp: &'a Luminaire, known: &mut Vec<&'a IntensityDistribution>
             "direction": direction,
             "illuminance_lx": illuminance_lx,
         }),
-        LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+        LuminaireKind::Point { position, world_from_luminaire, intensity, .. } => {
             let number = known.iter().position(|d| *d == intensity).unwrap_or_else(|| {
                 known.push(intensity);
                 known.len() - 1

@@ -194,6 +194,7 @@ impl Stage {
             position: at.into(),
             world_from_luminaire: world_from_luminaire(UpAxis::Z, aim, 0.0),
             intensity,
+            area: None,
         };
         self.luminaire(kind);
     }

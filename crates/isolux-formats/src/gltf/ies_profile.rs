@@ -6,11 +6,18 @@ use super::notes::{Flaw, Notes, no_such};
 use super::uri;
 use crate::{Problem, ies};
 use isolux::photometry::IntensityDistribution;
+use isolux::scene::LuminousArea;
 use serde_json::Value;
 use std::borrow::Cow;
 use std::path::Path;
 
 pub(super) const NAME: &str = "EXT_lights_ies";
+
+/// The light of a profile.
+pub(super) struct Profile {
+    pub(super) intensity: IntensityDistribution,
+    pub(super) area: Option<LuminousArea>,
+}
 
 /// What a node says of its profile.
 pub(super) struct Instance {
@@ -44,12 +51,12 @@ impl Instance {
     }
 }
 
-/// The distribution of a profile, with its name where it has one.
+/// A profile by its index.
 pub(super) fn profile(
     document: &Document,
     index: usize,
     notes: &mut Notes,
-) -> Result<IntensityDistribution, Flaw> {
+) -> Result<Profile, Flaw> {
     let root_extensions = document.root.extensions.as_ref();
     let lights = root_extensions
         .and_then(|e| e.others.get(NAME)?.get("lights")?.as_array())
@@ -84,7 +91,7 @@ fn distribution(
     name: &Path,
     place: &str,
     notes: &mut Notes,
-) -> Result<IntensityDistribution, Flaw> {
+) -> Result<Profile, Flaw> {
     let flaw = |problem: Problem| Flaw::new(problem.without_remedy(), problem.remedy).rooted(place);
     let read_tilt = &mut |_: &str| {
         let what = "is not read through glTF";
@@ -97,5 +104,6 @@ fn distribution(
         first.unwrap_or_else(|| Flaw::new("unreadable", "replace it").rooted(place))
     })?;
     loaded.warnings.into_iter().map(flaw).for_each(|warning| notes.warn(warning));
-    loaded.value.resolve().map_err(flaw)
+    let area = loaded.value.opening.area();
+    loaded.value.resolve().map(|intensity| Profile { intensity, area }).map_err(flaw)
 }

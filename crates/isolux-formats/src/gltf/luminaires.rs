@@ -1,11 +1,10 @@
 //! Lights on nodes, of both extensions.
 
 use super::buffers::Document;
-use super::ies_profile::{self, Instance};
+use super::ies_profile::{self, Instance, Profile};
 use super::nodes::Placed;
 use super::notes::{Flaw, Notes};
 use super::punctual;
-use isolux::photometry::IntensityDistribution;
 use isolux::scene::Luminaire;
 use std::collections::HashMap;
 
@@ -45,7 +44,7 @@ fn punctual_luminaire(
     Ok(Some(Luminaire { name, group: 0, colour, kind }))
 }
 
-type Profiles = HashMap<usize, Result<IntensityDistribution, Flaw>>;
+type Profiles = HashMap<usize, Result<Profile, Flaw>>;
 
 fn ies_luminaire(
     document: &Document,
@@ -63,7 +62,8 @@ fn ies_luminaire(
         .as_ref()
         .map_err(|flaw| flaw.clone().at(format!("{}.light", ies_profile::NAME)))?;
     let (colour, factor) = punctual::photometric(ies.colour, ies.multiplier)?;
-    let kind = punctual::point(&instance.world_from_node, profile.scaled(factor));
+    let intensity = profile.intensity.scaled(factor);
+    let kind = punctual::point(&instance.world_from_node, intensity, profile.area);
     let name = name(document, instance.node, None);
     Ok(Some(Luminaire { name, group: 0, colour, kind }))
 }

@@ -7,7 +7,7 @@ use gltf_json::extensions::scene::khr_lights_punctual::{Light, Spot, Type};
 use gltf_json::validation::Checked;
 use isolux::geometry::{Point, Transform};
 use isolux::photometry::IntensityDistribution;
-use isolux::scene::LuminaireKind;
+use isolux::scene::{LuminaireKind, LuminousArea};
 use isolux::units::Rgb;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -48,12 +48,13 @@ pub(super) fn resolve(
             illuminance_lx: intensity,
         },
         Type::Point => {
-            point(world_from_node, IntensityDistribution::Isotropic { intensity_cd: intensity })
+            let intensity = IntensityDistribution::Isotropic { intensity_cd: intensity };
+            point(world_from_node, intensity, None)
         }
         Type::Spot => {
             orientation::forward(world_from_node)?;
             let spot = light.spot.as_ref();
-            point(world_from_node, spot_distribution(spot, intensity, place, notes)?)
+            point(world_from_node, spot_distribution(spot, intensity, place, notes)?, None)
         }
     };
     Ok((colour, kind))
@@ -63,11 +64,13 @@ pub(super) fn resolve(
 pub(super) fn point(
     world_from_node: &Transform,
     intensity: IntensityDistribution,
+    area: Option<LuminousArea>,
 ) -> LuminaireKind {
     LuminaireKind::Point {
         position: world_from_node.point(Point::ORIGIN),
         world_from_luminaire: orientation::rotation(world_from_node),
         intensity,
+        area,
     }
 }
 

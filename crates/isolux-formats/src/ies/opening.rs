@@ -1,7 +1,7 @@
 //! Size and shape of the luminous opening.
 
 use super::Edition;
-use isolux::geometry::Vector;
+use isolux::scene::{AreaShape, LuminousArea};
 
 /// The part of a luminaire that shines, in its own frame: length lies in the plane C0-C180, width
 /// in C90-C270, height along the vertical.
@@ -36,9 +36,6 @@ pub enum OpeningShape {
     UprightDisc,
 }
 
-/// More points than this fill no opening: they would be a millimetre apart in most.
-const MOST_POINTS: usize = 100_000;
-
 impl LuminousOpening {
     /// A rectangle, or a box if it has a height.
     pub(crate) fn rectangle([length_m, width_m, height_m]: [f64; 3]) -> Self {
@@ -59,50 +56,21 @@ impl LuminousOpening {
         sizes == [0.0; 3] || matches!(self.shape, None | Some(OpeningShape::Point))
     }
 
-    /// Points that fill it evenly, at most so far apart, about its middle in the luminaire's frame (length
-    /// along x, width along y, height along z), m: flat shapes their area, the others their volume.
-    /// `None` if they would be more than a hundred thousand.
-    ///
-    /// The points are the middles of the cells of a grid, of which those inside the shape are kept; a
-    /// shape is symmetric, and so are they.
-    pub fn points_m(&self, spacing_m: f64) -> Option<Vec<Vector>> {
-        if self.is_point() {
-            return Some(vec![Vector::default()]);
-        }
-        let sizes = [self.length_m, self.width_m, self.height_m];
-        let counts = sizes.map(|size| (size / spacing_m).ceil().max(1.0));
-        let whole = counts.iter().product::<f64>();
-        if whole > MOST_POINTS as f64 {
-            return None;
-        }
-        let [nx, ny, nz] = counts.map(|count| count as usize);
-        // Opposite places are opposite to the last bit.
-        let middle = |k: usize, n: usize| (2.0 * k as f64 + 1.0 - n as f64) / (2.0 * n as f64);
-        let mut points = Vec::new();
-        for k in 0..nz {
-            for j in 0..ny {
-                for i in 0..nx {
-                    let shares = [middle(i, nx), middle(j, ny), middle(k, nz)];
-                    if self.holds(shares) {
-                        let [x, y, z] = [0, 1, 2].map(|axis| shares[axis] * sizes[axis]);
-                        points.push(Vector::new(x, y, z));
-                    }
-                }
+    /// The luminous area in the frame of the luminaire: length along x, width along y, height along z. `None` for a
+    /// point.
+    pub fn area(&self) -> Option<LuminousArea> {
+        let shape = match self.shape {
+            _ if self.is_point() => return None,
+            Some(OpeningShape::Disc) => AreaShape::CylinderZ,
+            Some(OpeningShape::Ellipsoid) => AreaShape::Ellipsoid,
+            Some(OpeningShape::CylinderAlongLength | OpeningShape::UprightDisc) => {
+                AreaShape::CylinderX
             }
-        }
-        Some(points)
-    }
-
-    /// Whether a place, in shares of the sizes from the middle, lies inside the shape.
-    fn holds(&self, [x, y, z]: [f64; 3]) -> bool {
-        let round = |a: f64, b: f64, c: f64| a * a + b * b + c * c <= 0.25;
-        match self.shape {
-            Some(OpeningShape::Disc) => round(x, y, 0.0),
-            Some(OpeningShape::Ellipsoid) => round(x, y, z),
-            Some(OpeningShape::CylinderAlongLength | OpeningShape::UprightDisc) => round(0.0, y, z),
-            Some(OpeningShape::CylinderAlongWidth) => round(x, 0.0, z),
-            Some(OpeningShape::Point | OpeningShape::Rectangle) | None => true,
-        }
+            Some(OpeningShape::CylinderAlongWidth) => AreaShape::CylinderY,
+            Some(OpeningShape::Point | OpeningShape::Rectangle) | None => AreaShape::Box,
+        };
+        let sizes_m = [self.length_m, self.width_m, self.height_m];
+        Some(LuminousArea { shape, half_m: sizes_m.map(|size| 0.5 * size) })
     }
 
     /// From the numbers as written, in metres, with their signs.
@@ -190,39 +158,23 @@ mod tests {
     }
 
     #[test]
-    fn points_fill_every_shape_evenly() {
-        let opening = |shape, [length_m, width_m, height_m]: [f64; 3]| LuminousOpening {
-            shape: Some(shape),
-            length_m,
-            width_m,
-            height_m,
+    fn areas_have_the_shapes_of_openings() {
+        let area = |shape, [length_m, width_m, height_m]: [f64; 3]| {
+            LuminousOpening { shape, length_m, width_m, height_m }.area()
         };
-        // The mean of x^2 of a length, a circle and a ball of size 1: 1/12, 1/16, 1/20.
-        for (shape, sizes, moments) in [
-            (Rectangle, [1.0, 0.5, 0.0], [1.0 / 12.0, 0.25 / 12.0, 0.0]),
-            (Rectangle, [1.0, 0.5, 0.25], [1.0 / 12.0, 0.25 / 12.0, 0.0625 / 12.0]),
-            (Disc, [1.0, 1.0, 0.0], [1.0 / 16.0, 1.0 / 16.0, 0.0]),
-            (Disc, [1.0, 0.5, 0.5], [1.0 / 16.0, 0.25 / 16.0, 0.25 / 12.0]),
-            (Ellipsoid, [1.0, 1.0, 1.0], [0.05; 3]),
-            (CylinderAlongLength, [1.0, 0.5, 0.5], [1.0 / 12.0, 0.25 / 16.0, 0.25 / 16.0]),
-            (CylinderAlongWidth, [0.5, 1.0, 0.5], [0.25 / 16.0, 1.0 / 12.0, 0.25 / 16.0]),
-            (UprightDisc, [0.0, 1.0, 1.0], [0.0, 1.0 / 16.0, 1.0 / 16.0]),
+        for (shape, expected) in [
+            (Rectangle, AreaShape::Box),
+            (Disc, AreaShape::CylinderZ),
+            (Ellipsoid, AreaShape::Ellipsoid),
+            (CylinderAlongLength, AreaShape::CylinderX),
+            (UprightDisc, AreaShape::CylinderX),
+            (CylinderAlongWidth, AreaShape::CylinderY),
         ] {
-            let points = opening(shape, sizes).points_m(0.025).unwrap();
-            let count = points.len() as f64;
-            let mean = |f: &dyn Fn(&Vector) -> f64| points.iter().map(f).sum::<f64>() / count;
-            for (axis, moment) in moments.into_iter().enumerate() {
-                let of = |v: &Vector| [v.x, v.y, v.z][axis];
-                // Symmetric but for the rounding of thousands of additions; the moment of n cells lacks
-                // 1/n^2 of it, 1 % of the 10 across the shortest side, and as much at curved borders.
-                assert!(mean(&of).abs() < 1e-12, "{shape:?} {axis}");
-                let square = mean(&|v| of(v) * of(v));
-                assert!((square - moment).abs() <= 0.02 * moment, "{shape:?} {axis}: {square}");
-            }
+            let found = area(Some(shape), [0.6, 0.2, 0.1]);
+            assert_eq!(found, Some(LuminousArea { shape: expected, half_m: [0.3, 0.1, 0.05] }));
         }
-        let coarse = opening(Disc, [0.2, 0.2, 0.0]).points_m(1.0).unwrap();
-        assert_eq!(coarse, [Vector::default()]);
-        assert_eq!(opening(Disc, [2.0, 2.0, 2.0]).points_m(1e-6), None);
-        assert_eq!(opening(Point, [0.0; 3]).points_m(0.1).unwrap().len(), 1);
+        for (shape, sizes) in [(Some(Point), [0.1; 3]), (None, [0.1; 3]), (Some(Disc), [0.0; 3])] {
+            assert_eq!(area(shape, sizes), None);
+        }
     }
 }

@@ -6,7 +6,7 @@ use super::preview::Preview;
 use isolux::geometry::{Direction, Point, Transform};
 use isolux::map::{IlluminationMap, Provenance};
 use isolux::photometry::IntensityDistribution;
-use isolux::scene::{CalculationGrid, Camera, Maintenance, Material, UpAxis};
+use isolux::scene::{CalculationGrid, Camera, LuminousArea, Maintenance, Material, UpAxis};
 use isolux::units::Rgb;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -140,6 +140,15 @@ pub(super) struct LuminaireRecord {
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum KindRecord {
-    Point { position: Point, world_from_luminaire: Transform, distribution: u32 },
-    Directional { direction: Direction, illuminance_lx: f64 },
+    Point {
+        position: Point,
+        world_from_luminaire: Transform,
+        distribution: u32,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        area: Option<LuminousArea>,
+    },
+    Directional {
+        direction: Direction,
+        illuminance_lx: f64,
+    },
 }

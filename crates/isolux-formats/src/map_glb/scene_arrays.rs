@@ -82,9 +82,9 @@ impl Distributions {
     fn record(&mut self, luminaire: Luminaire) -> LuminaireRecord {
         let Luminaire { name, group, colour, kind } = luminaire;
         let kind = match kind {
-            LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+            LuminaireKind::Point { position, world_from_luminaire, intensity, area } => {
                 let distribution = self.index(intensity);
-                KindRecord::Point { position, world_from_luminaire, distribution }
+                KindRecord::Point { position, world_from_luminaire, distribution, area }
             }
             LuminaireKind::Directional { direction, illuminance_lx } => {
                 KindRecord::Directional { direction, illuminance_lx }
@@ -211,7 +211,7 @@ fn luminaire(
 ) -> Result<Luminaire, Fault> {
     let LuminaireRecord { name, group, colour, kind } = record;
     let kind = match kind {
-        KindRecord::Point { position, world_from_luminaire, distribution } => {
+        KindRecord::Point { position, world_from_luminaire, distribution, area } => {
             let Some(intensity) = distributions.get(distribution as usize) else {
                 return Err(Fault::new(
                     format!("luminaire `{name}`"),
@@ -219,7 +219,7 @@ fn luminaire(
                 ));
             };
             let intensity = intensity.clone();
-            LuminaireKind::Point { position, world_from_luminaire, intensity }
+            LuminaireKind::Point { position, world_from_luminaire, intensity, area }
         }
         KindRecord::Directional { direction, illuminance_lx } => {
             LuminaireKind::Directional { direction, illuminance_lx }

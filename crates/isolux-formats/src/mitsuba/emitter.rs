@@ -40,6 +40,7 @@ pub(super) fn point(emitter: &Element, efficacy_lm_w: f64) -> Result<Luminaire, 
         position,
         world_from_luminaire: Transform::IDENTITY,
         intensity: IntensityDistribution::Isotropic { intensity_cd: intensity.luminance() },
+        area: None,
     };
     Ok(luminaire(emitter, intensity, kind))
 }
@@ -72,7 +73,12 @@ pub(super) fn spot(emitter: &Element, efficacy_lm_w: f64) -> Result<Luminaire, W
     let (position, aim) = stand(emitter)?;
     let world_from_luminaire = world_from_luminaire(UpAxis::Z, aim, 0.0);
     let intensity_cd = IntensityDistribution::Web(web.into());
-    let kind = LuminaireKind::Point { position, world_from_luminaire, intensity: intensity_cd };
+    let kind = LuminaireKind::Point {
+        position,
+        world_from_luminaire,
+        intensity: intensity_cd,
+        area: None,
+    };
     Ok(luminaire(emitter, intensity, kind))
 }
 

@@ -84,7 +84,8 @@ pub(super) fn spot(
     };
     let intensity = unit.scaled(flux_lm / unit.luminous_flux_lm());
     let world_from_luminaire = world_from_luminaire(UpAxis::Z, aim, 0.0);
-    let kind = LuminaireKind::Point { position: centroid, world_from_luminaire, intensity };
+    let kind =
+        LuminaireKind::Point { position: centroid, world_from_luminaire, intensity, area: None };
     Ok(luminaire(name, spot.luminance_cd_m2, kind))
 }
 
@@ -118,7 +119,7 @@ pub(super) fn point(
     world_from_file: &Transform,
 ) -> Option<Luminaire> {
     let world_from_luminaire = without_scale(world_from_file)?;
-    let kind = LuminaireKind::Point { position, world_from_luminaire, intensity };
+    let kind = LuminaireKind::Point { position, world_from_luminaire, intensity, area: None };
     Some(luminaire(name, colour, kind))
 }
 

@@ -205,11 +205,12 @@ impl Import {
     pub(super) fn luminaires(&self, scene_from_file: &Transform) -> Vec<Luminaire> {
         let Some(turn) = without_scale(scene_from_file) else { return Vec::new() };
         let kind = |kind: &LuminaireKind| match kind {
-            LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+            LuminaireKind::Point { position, world_from_luminaire, intensity, area } => {
                 LuminaireKind::Point {
                     position: scene_from_file.point(*position),
                     world_from_luminaire: turn.then_from(world_from_luminaire),
                     intensity: intensity.clone(),
+                    area: *area,
                 }
             }
             LuminaireKind::Directional { direction, illuminance_lx } => {

@@ -17,7 +17,6 @@ pub(super) struct LibraryLight {
     pub(super) emission: Emission,
     pub(super) colour: Option<Rgb>,
     pub(super) maintenance_factor: Option<f64>,
-    pub(super) extended_m: Option<f64>,
 }
 
 /// All libraries that a scene names.
@@ -139,6 +138,5 @@ fn resolve(
         emission: emission?,
         colour: colour?,
         maintenance_factor: record.maintenance_factor.map(|m| m.0),
-        extended_m: record.extended_m.as_ref().map(|m| m.get_ref().0),
     })
 }

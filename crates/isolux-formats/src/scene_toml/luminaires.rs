@@ -9,7 +9,6 @@ use super::quantity::plain;
 use super::record::{ArrayRecord, DirectionalRecord, GroupRecord, LuminaireRecord};
 use super::spans::At;
 use isolux::geometry::{Point, Vector};
-use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Luminaire, LuminaireKind, Maintenance, SceneParts, world_from_luminaire};
 use isolux::units::Rgb;
 use std::collections::HashMap;
@@ -134,27 +133,16 @@ fn kinds(
             emission,
             colour: None,
             factor: record.maintenance_factor.map_or(1.0, |m| m.0),
-            extended_m: record.extended_m.as_ref().map(|m| m.get_ref().0),
         }),
     };
     let places = places(entry, name, context);
     let aim = Aim::new(record, context);
     let light = light?;
     let factor = light.factor * record.dimming.map_or(1.0, |d| d.0);
-    let intensity = light.emission.intensity.scaled(factor);
     let (places, aim) = (places?, aim?);
-    let kinds = match light.extended_m {
-        None => points(&places, &aim, &intensity, &[Vector::default()], entry, context),
-        Some(spacing_m) => {
-            let span = record.extended_m.as_ref().map_or(entry.span(), At::span);
-            let parts = light.emission.points_m(spacing_m, &span, context)?;
-            if !context.take_luminaires(&span, parts.len() - 1, places.len()) {
-                return None;
-            }
-            let share = intensity.scaled(1.0 / parts.len() as f64);
-            points(&places, &aim, &share, &parts, entry, context)
-        }
-    };
+    let emission =
+        Emission { intensity: light.emission.intensity.scaled(factor), ..light.emission };
+    let kinds = points(&places, &aim, &emission, entry, context);
     Some(Kinds { kinds: kinds?, colour: light.colour, maintenance: Some(light.factor) })
 }
 
@@ -164,7 +152,6 @@ struct Light {
     colour: Option<Rgb>,
     /// Maintenance factor.
     factor: f64,
-    extended_m: Option<f64>,
 }
 
 /// The light of a luminaire of a library, where the entry itself says nothing else.
@@ -180,10 +167,12 @@ fn of_library(
     }
     let known = libraries.find(kind, context)?;
     Some(Light {
-        emission: known.emission.with_flux(record.flux_lm.as_ref(), context)?,
+        emission: known
+            .emission
+            .with_area(record.luminous_area.as_ref())
+            .with_flux(record.flux_lm.as_ref(), context)?,
         colour: known.colour,
         factor: record.maintenance_factor.map(|m| m.0).or(known.maintenance_factor).unwrap_or(1.0),
-        extended_m: record.extended_m.as_ref().map(|m| m.get_ref().0).or(known.extended_m),
     })
 }
 
@@ -199,7 +188,7 @@ fn directional(
         ("rotate_deg", record.rotate_deg.as_ref().map(At::span)),
         ("array", record.array.as_ref().map(At::span)),
         ("flux_lm", record.flux_lm.as_ref().map(At::span)),
-        ("extended_m", record.extended_m.as_ref().map(At::span)),
+        ("luminous_area", record.luminous_area.as_ref().map(At::span)),
         ("lamp_set", record.lamp_set.as_ref().map(At::span)),
     ];
     for (key, span) in without_meaning {
@@ -261,27 +250,25 @@ fn places(
     Some(places)
 }
 
-/// A point of light for each place and each part of the luminaire, given in its frame.
+/// A luminaire for each place.
 fn points(
     places: &[(String, Point)],
     aim: &Aim,
-    intensity: &IntensityDistribution,
-    parts_m: &[Vector],
+    Emission { intensity, area }: &Emission,
     entry: &At<LuminaireRecord>,
     context: &mut Context,
 ) -> Option<Vec<(String, LuminaireKind)>> {
     let rotate_deg = entry.get_ref().rotate_deg.as_ref().map_or(0.0, |r| r.get_ref().0);
-    let mut kinds = Vec::with_capacity(places.len() * parts_m.len());
+    let mut kinds = Vec::with_capacity(places.len());
     for (place, position) in places {
         let aim = aim.from(*position, context)?;
-        let world_from_luminaire = world_from_luminaire(context.up, aim, rotate_deg);
-        for (number, part) in parts_m.iter().enumerate() {
-            let part_name = if parts_m.len() > 1 { format!("/{number}") } else { String::new() };
-            let position = *position + world_from_luminaire.vector(*part);
-            let intensity = intensity.clone();
-            let kind = LuminaireKind::Point { position, world_from_luminaire, intensity };
-            kinds.push((format!("{place}{part_name}"), kind));
-        }
+        let kind = LuminaireKind::Point {
+            position: *position,
+            world_from_luminaire: world_from_luminaire(context.up, aim, rotate_deg),
+            intensity: intensity.clone(),
+            area: *area,
+        };
+        kinds.push((place.clone(), kind));
     }
     Some(kinds)
 }

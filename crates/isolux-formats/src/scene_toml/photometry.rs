@@ -2,12 +2,13 @@
 
 use super::context::Context;
 use super::quantity::NonNegative;
-use super::record::{CosineRecord, IsotropicRecord, LightRecord, SpotRecord};
+use super::record::{
+    CosineRecord, IsotropicRecord, LightRecord, LuminousAreaRecord, LuminousSizes, SpotRecord,
+};
 use super::spans::{At, Span};
-use crate::ies::LuminousOpening;
 use crate::{Loaded, Problem, Problems, ies, ldt};
-use isolux::geometry::Vector;
 use isolux::photometry::IntensityDistribution;
+use isolux::scene::LuminousArea;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -15,8 +16,8 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug)]
 pub(super) struct Emission {
     pub(super) intensity: IntensityDistribution,
-    /// Of a photometric file.
-    opening: Option<LuminousOpening>,
+    /// Where the light leaves from; `None` for a point.
+    pub(super) area: Option<LuminousArea>,
 }
 
 /// What files hold, each read once.
@@ -45,20 +46,17 @@ pub(super) fn emission(
             let what = "`lamp_set` of a luminaire without an EULUMDAT file";
             context.problem(&set.span(), what, "remove it: only `ldt` knows several sets of lamps");
         }
-        let read = files.get(file, record, context)?;
+        let read = files.get(file, record, context)?.with_area(record.luminous_area);
         return read.with_flux(record.flux_lm, context);
     }
-    for (key, span) in [
-        ("flux_lm", record.flux_lm.map(At::span)),
-        ("extended_m", record.extended_m.map(At::span)),
-        ("lamp_set", record.lamp_set.map(At::span)),
-    ] {
+    for (key, span) in
+        [("flux_lm", record.flux_lm.map(At::span)), ("lamp_set", record.lamp_set.map(At::span))]
+    {
         if let Some(span) = span {
             let what = format!("`{key}` of a luminaire without a photometric file");
             let remedy = match key {
                 "flux_lm" => "write it inside `isotropic`, `cosine` or `spot`",
-                "lamp_set" => "remove it: only `ldt` knows several sets of lamps",
-                _ => "remove it: only `ies` and `ldt` know the luminous opening",
+                _ => "remove it: only `ldt` knows several sets of lamps",
             };
             context.problem(&span, what, remedy);
         }
@@ -69,7 +67,7 @@ pub(super) fn emission(
         .or_else(|| record.cosine.map(|r| cosine(r, context)))
         .or_else(|| record.spot.map(|r| spot(r, context)))
         .flatten()?;
-    Some(Emission { intensity, opening: None })
+    Some(Emission { intensity, area: None }.with_area(record.luminous_area))
 }
 
 impl Emission {
@@ -84,32 +82,16 @@ impl Emission {
         Some(Self { intensity, ..self })
     }
 
-    /// Where its light comes from in the frame of the luminaire, m: points that fill the opening, at most
-    /// so far apart.
-    pub(super) fn points_m(
-        &self,
-        spacing_m: f64,
-        at: &Span,
-        context: &mut Context,
-    ) -> Option<Vec<Vector>> {
-        let Some(opening) = &self.opening else {
-            let what = "`extended_m` of a luminaire without a photometric file";
-            context.problem(at, what, "remove it: only `ies` and `ldt` know the luminous opening");
-            return None;
-        };
-        let points = opening.points_m(spacing_m);
-        if points.is_none() {
-            let remedy = "give a larger distance between points";
-            context.problem(at, "the luminous opening would take too many points", remedy);
-        } else if opening.is_point() {
-            let remedy = "remove `extended_m`, or write the size into the photometric file";
-            context.warning(
-                at,
-                "the photometric file gives no luminous opening; it stays a point",
-                remedy,
-            );
-        }
-        points
+    /// From another luminous area, where one is given.
+    pub(super) fn with_area(self, area: Option<&At<LuminousAreaRecord>>) -> Self {
+        let area = area.map_or(self.area, |area| match *area.get_ref() {
+            LuminousAreaRecord::Point(_) => None,
+            LuminousAreaRecord::Sizes(LuminousSizes { shape, size_m }) => {
+                let half_m = size_m.map(|size| 0.5 * size.0);
+                (half_m != [0.0; 3]).then_some(LuminousArea { shape, half_m })
+            }
+        });
+        Self { area, ..self }
     }
 }
 
@@ -233,7 +215,7 @@ fn read(
 
 fn read_ies(path: &Path) -> Result<Option<Loaded<Known>>, Problems> {
     let Loaded { value, warnings } = ies::read(path)?;
-    let emission = Emission { intensity: value.resolve()?, opening: Some(value.opening) };
+    let emission = Emission { intensity: value.resolve()?, area: value.opening.area() };
     Ok(Some(known(emission, value.doubt_of_flux(), warnings)))
 }
 
@@ -242,7 +224,7 @@ fn read_ldt(path: &Path, set: u32) -> Result<Option<Loaded<Known>>, Problems> {
     let Loaded { value, warnings } = ldt::read(path)?;
     let index = (set as usize).checked_sub(1);
     let Some(set) = index.and_then(|k| value.lamp_sets.get(k)) else { return Ok(None) };
-    let emission = Emission { intensity: value.resolve_with(set)?, opening: Some(value.opening()) };
+    let emission = Emission { intensity: value.resolve_with(set)?, area: value.opening().area() };
     Ok(Some(known(emission, value.doubt_of_flux(), warnings)))
 }
 

@@ -2,7 +2,7 @@
 
 use super::quantity::{Colour, LengthUnit, NonNegative, Number, Positive, Share, Triple};
 use super::spans::At;
-use isolux::scene::UpAxis;
+use isolux::scene::{AreaShape, UpAxis};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -189,8 +189,30 @@ pub(super) struct LuminaireRecord {
     pub(super) ldt: Option<At<String>>,
     pub(super) lamp_set: Option<At<u32>>,
     pub(super) flux_lm: Option<At<NonNegative>>,
-    pub(super) extended_m: Option<At<Positive>>,
+    pub(super) luminous_area: Option<At<LuminousAreaRecord>>,
     pub(super) array: Option<At<ArrayRecord>>,
+}
+
+/// Where the light of a luminaire leaves from, in place of what a photometric file says.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged, expecting = "\"point\" or { shape = \"box\", size_m = [length, width, height] }")]
+pub(super) enum LuminousAreaRecord {
+    Point(PointWord),
+    Sizes(LuminousSizes),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum PointWord {
+    Point,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LuminousSizes {
+    pub(super) shape: AreaShape,
+    /// Along C0-C180, along C90-C270, and vertically.
+    pub(super) size_m: [NonNegative; 3],
 }
 
 /// A luminaire of a library: all but where it hangs.
@@ -207,7 +229,7 @@ pub(super) struct LibraryRecord {
     pub(super) ldt: Option<At<String>>,
     pub(super) lamp_set: Option<At<u32>>,
     pub(super) flux_lm: Option<At<NonNegative>>,
-    pub(super) extended_m: Option<At<Positive>>,
+    pub(super) luminous_area: Option<At<LuminousAreaRecord>>,
 }
 
 /// What a luminaire says of its light, here or in a library.
@@ -221,7 +243,7 @@ pub(super) struct LightRecord<'a> {
     /// Which of the lamp sets of EULUMDAT, from 1.
     pub(super) lamp_set: Option<&'a At<u32>>,
     pub(super) flux_lm: Option<&'a At<NonNegative>>,
-    pub(super) extended_m: Option<&'a At<Positive>>,
+    pub(super) luminous_area: Option<&'a At<LuminousAreaRecord>>,
     pub(super) colour: Option<&'a At<Colour>>,
     pub(super) cct_k: Option<&'a At<Number>>,
 }
@@ -244,7 +266,7 @@ impl LuminaireRecord {
             ldt: self.ldt.as_ref(),
             lamp_set: self.lamp_set.as_ref(),
             flux_lm: self.flux_lm.as_ref(),
-            extended_m: self.extended_m.as_ref(),
+            luminous_area: self.luminous_area.as_ref(),
             colour: self.colour.as_ref(),
             cct_k: self.cct_k.as_ref(),
         }
@@ -262,7 +284,7 @@ impl LibraryRecord {
             ldt: self.ldt.as_ref(),
             lamp_set: self.lamp_set.as_ref(),
             flux_lm: self.flux_lm.as_ref(),
-            extended_m: self.extended_m.as_ref(),
+            luminous_area: self.luminous_area.as_ref(),
             colour: self.colour.as_ref(),
             cct_k: self.cct_k.as_ref(),
         }

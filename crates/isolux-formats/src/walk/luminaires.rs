@@ -40,7 +40,7 @@ fn record<'a>(
         solid: None,
     };
     match &one.kind {
-        LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+        LuminaireKind::Point { position, world_from_luminaire, intensity, .. } => {
             let turned = |v: Vector| <[f64; 3]>::from(world_from_luminaire.vector(v));
             LuminaireRecord {
                 position: Some((*position - origin).into()),

@@ -43,7 +43,7 @@ fn point() {
     let found =
         luminaire(&with_light(light, json!({"translation": [1, 2, 3], "scale": [2, 2, 2]})));
     assert_eq!((found.name.as_str(), found.group, found.colour), ("bulb", 0, Rgb::WHITE));
-    let LuminaireKind::Point { position, intensity, world_from_luminaire } = found.kind else {
+    let LuminaireKind::Point { position, intensity, world_from_luminaire, .. } = found.kind else {
         panic!("no point")
     };
     assert_eq!(position, Point::new(1.0, 2.0, 3.0));

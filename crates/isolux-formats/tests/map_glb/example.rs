@@ -118,6 +118,7 @@ fn luminaires() -> Vec<Luminaire> {
             position: Point::new(f64::from(k), 1.0 / 3.0, 2.5),
             world_from_luminaire: turned,
             intensity,
+            area: None,
         },
     };
     let sun = LuminaireKind::Directional {

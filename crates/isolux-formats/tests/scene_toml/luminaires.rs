@@ -3,7 +3,7 @@
 use super::{FLOOR, problems, read, read_with};
 use isolux::geometry::{Direction, Point, Vector};
 use isolux::photometry::IntensityDistribution;
-use isolux::scene::{Luminaire, LuminaireKind, Scene, SceneParts};
+use isolux::scene::{AreaShape, Luminaire, LuminaireKind, Scene, SceneParts};
 use isolux::units::Rgb;
 use std::f64::consts::PI;
 
@@ -323,86 +323,34 @@ fn problems_of_libraries_have_their_place() {
 }
 
 #[test]
-fn extended_luminaires_fill_their_opening() {
+fn luminaires_of_files_shine_from_their_opening() {
     let scene = |keys: &str| {
         let text = format!("[[luminaire]]\nname = 'l'\nposition = [1,2,3]\n{keys}\n{FLOOR}");
         let ldt = "m\n3\n1\n1\n0\n2\n90\nr\nl\nn\nf\nd\n0\n0\n0\n600\n0\n0\n0\n0\n0\n100\n0\n1\n0\n\
                    1\n1\nLED\n1000\n\n\n\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n90\n100\n0\n";
         read_with(&text, &[("lamp.ies", LAMP), ("lamp.ldt", ldt)])
     };
-    let parts = |keys: &str| scene(keys).unwrap_or_else(|p| panic!("{p}")).value;
-    let flux = |parts: SceneParts| Scene::assemble(parts).unwrap().luminous_flux_lm();
-    let [point, wide] =
-        ["", "extended_m = 0.1"].map(|key| parts(&format!("ies = 'lamp.ies'\n{key}")));
-    // Length 0.4 m along C0, width 0.2 m.
-    let places: Vec<Vector> =
-        wide.luminaires.iter().map(|l| pose(l).0 - Point::new(1.0, 2.0, 3.0)).collect();
-    assert_eq!((places.len(), wide.luminaires[7].name.as_str()), (8, "l/7"));
-    let near = |a: Vector, b: [f64; 3]| (a - Vector::from(b)).length() < 1e-14;
-    assert!(
-        near(places[0], [-0.15, -0.05, 0.0]) && near(places[7], [0.15, 0.05, 0.0]),
-        "{places:?}"
-    );
-    let (one, all) = (flux(point), flux(wide));
-    // Eight shares of one.
-    assert!((one - all).abs() < 1e-12 * one, "{one} {all}");
-    // Aimed to +x, the length hangs down: C0 follows the turn.
-    let aimed = parts("ies = 'lamp.ies'\nextended_m = 0.3\ndirection = [1, 0, 0]");
-    let offset = pose(&aimed.luminaires[1]).0 - Point::new(1.0, 2.0, 3.0);
-    assert!(near(offset, [0.0, 0.0, 0.1]), "{offset:?}");
-    // A disc of 0.6 m in 4 x 4 cells, of which those in the corners lie outside.
-    assert_eq!(parts("ldt = 'lamp.ldt'\nextended_m = 0.15").luminaires.len(), 16 - 4);
+    let area = |keys: &str| {
+        let parts = scene(keys).unwrap_or_else(|p| panic!("{p}")).value;
+        let [luminaire] = &parts.luminaires[..] else { panic!("one luminaire") };
+        luminaire.kind.area().map(|area| (area.shape, area.half_m))
+    };
+    // Length 0.4 m along C0, width 0.2 m; a disc of 0.6 m.
+    assert_eq!(area("ies = 'lamp.ies'"), Some((AreaShape::Box, [0.2, 0.1, 0.0])));
+    assert_eq!(area("ldt = 'lamp.ldt'"), Some((AreaShape::CylinderZ, [0.3, 0.3, 0.0])));
+    assert_eq!(area("ies = 'lamp.ies'\nluminous_area = 'point'"), None);
+    let given = "luminous_area = { shape = 'ellipsoid', size_m = [0.2, 0.2, 0.4] }";
+    for light in ["ies = 'lamp.ies'", "isotropic = { flux_lm = 1 }"] {
+        let found = area(&format!("{light}\n{given}"));
+        assert_eq!(found, Some((AreaShape::Ellipsoid, [0.1, 0.1, 0.2])));
+    }
     for (keys, expected) in [
-        ("isotropic = { flux_lm = 1 }\nextended_m = 0.1", "line 5, column 14: `extended_m` of a"),
-        (
-            "ies = 'lamp.ies'\nextended_m = 1e-9",
-            "line 5, column 14: the luminous opening would take",
-        ),
-        ("ies = 'lamp.ies'\nextended_m = 0", "0 is out of range"),
+        ("ies = 'lamp.ies'\nluminous_area = 'wide'", "line 5, column 17: "),
+        ("ies = 'lamp.ies'\nluminous_area = { shape = 'box', size_m = [1, -1, 0] }", "line 5"),
+        ("directional = { illuminance_lx = 1 }\nluminous_area = 'point'", "`luminous_area` of a"),
     ] {
         let found = scene(keys).unwrap_err().to_string();
         assert!(found.contains(expected), "no {expected:?} in {found:?}");
-    }
-}
-
-/// A Lambertian panel of 0.6 m by 0.6 m, 0.6 m above the point: from its form factor the illuminance is
-/// 0.752 L, while a point in its middle gives 1.000 L.
-#[test]
-fn an_extended_panel_lights_what_is_near_as_its_area_does() {
-    let candela: Vec<String> = (0..=90)
-        .map(|g| (1000.0 * libm::cos(f64::from(g).to_radians()).max(0.0)).to_string())
-        .collect();
-    let gammas: Vec<String> = (0..=90).map(|g| g.to_string()).collect();
-    let ies = format!(
-        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 91 1 1 2 0.6 0.6 0\n1 1 20\n{}\n0\n{}\n",
-        gammas.join(" "),
-        candela.join(" ")
-    );
-    let illuminance_lx = |key: &str| {
-        let text = format!("[[luminaire]]\nies = 'a.ies'\nposition = [0,0,0.6]\n{key}\n{FLOOR}");
-        let parts = read_with(&text, &[("a.ies", &ies)]).unwrap().value;
-        let lit = parts.luminaires.iter().map(|l| {
-            let LuminaireKind::Point { position, intensity, .. } = &l.kind else {
-                panic!("a point")
-            };
-            let to_floor = Point::ORIGIN - *position;
-            let direction = to_floor.direction().unwrap();
-            let cosine = -direction.to_vector().z;
-            intensity.intensity_cd(direction) * cosine / to_floor.dot(to_floor)
-        });
-        lit.sum::<f64>()
-    };
-    // Half sides over the height; four quadrants with the point below their corner.
-    let a: f64 = 0.5;
-    let root = (1.0 + a * a).sqrt();
-    let luminance = 1000.0 / 0.36;
-    let exact = 4.0 * luminance * (a / root) * libm::atan(a / root);
-    for (key, error) in [("", 0.34), ("extended_m = 0.3", 0.06), ("extended_m = 0.05", 0.0017)] {
-        let found = illuminance_lx(key) / exact - 1.0;
-        // The midpoint rule is of second order in spacing over height: a point is a third too bright, four
-        // are by 5 %, and cells six times finer by a thirty-sixth of that.
-        assert!(found.abs() <= error, "{key}: {found}");
-        assert!(found.abs() >= 0.1 * error, "{key}: {found}");
     }
 }
 

@@ -21,11 +21,13 @@ pub(super) struct Lobe {
     pub(super) direction: Direction,
     /// If it is one of many about the direction: the density of all of them there, 1/sr.
     pub(super) density: Option<f64>,
+    /// Whether it is wide enough for looks at luminaires without surface.
+    pub(super) shows_points: bool,
 }
 
 impl Lobe {
     const fn sharp(weight: Rgb, direction: Direction) -> Self {
-        Self { weight, direction, density: None }
+        Self { weight, direction, density: None, shows_points: false }
     }
 
     /// Whether it is one of many about the direction.
@@ -115,7 +117,8 @@ impl Rough<'_> {
             let out = half * (2.0 * view.dot(half)) - view;
             let direction = at.normal.to_direction().from_local(out.direction()?.to_vector());
             let (weight, density) = self.shown(at, view, out, direction)?;
-            Some(Lobe { weight: weight / all, direction, density: Some(density * all) })
+            let (weight, density) = (weight / all, Some(density * all));
+            Some(Lobe { weight, direction, density, shows_points: self.shows_points() })
         };
         lobes.extend(spread(facets, key).filter_map(lobe));
     }

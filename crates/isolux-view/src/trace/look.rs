@@ -1,5 +1,6 @@
 //! One look along a ray.
 
+use super::lamps::{Lamps, MetLamp};
 use super::lobes::{self, Arrival, Lobe, Rough};
 use super::settings::{SurfacePoint, TraceSettings};
 use crate::image::{Reading, Seen, Sight, Surface};
@@ -29,6 +30,7 @@ pub(super) struct Looker<'a> {
     pub(super) scene: &'a Scene,
     pub(super) settings: &'a TraceSettings,
     pub(super) highlights: Option<&'a Highlights<'a>>,
+    pub(super) lamps: Option<&'a Lamps<'a>>,
     pub(super) read: &'a (dyn Fn(SurfacePoint) -> Option<Illuminance> + Sync),
 }
 
@@ -54,6 +56,18 @@ impl Look {
         sight: Sight::Background,
         surface: None,
     };
+
+    /// A luminous area.
+    fn at_lamp(lamp: MetLamp) -> Self {
+        let luminance_cd_m2 = lamp.luminance_cd_m2;
+        Self {
+            luminance_cd_m2,
+            sharp_cd_m2: luminance_cd_m2,
+            sight: Sight::Emitter,
+            surface: Some(lamp.surface),
+            ..Self::NOTHING
+        }
+    }
 
     /// Whether two looks see one surface in the same light, as far as a picture can show.
     pub(super) fn is_like(&self, other: &Self) -> bool {
@@ -126,6 +140,7 @@ fn is_one_surface(one: &Option<Surface>, other: &Option<Surface>) -> bool {
 #[derive(Clone, Copy)]
 pub(super) struct Meeting {
     hit: Option<Hit>,
+    lamp: Option<MetLamp>,
     direction: Direction,
     surface: Option<Surface>,
     /// Whether the picture of another place is sharp in it.
@@ -135,7 +150,7 @@ pub(super) struct Meeting {
 impl Meeting {
     /// Beside the round picture of a fisheye.
     pub(super) const NOTHING: Self =
-        Self { hit: None, direction: Direction::X, surface: None, is_clear: false };
+        Self { hit: None, lamp: None, direction: Direction::X, surface: None, is_clear: false };
 
     /// Whether both meet one smooth piece of surface that shows nothing else sharply.
     pub(super) fn continues(&self, other: &Self) -> bool {
@@ -176,12 +191,23 @@ impl Looker<'_> {
     /// What a ray of the camera meets.
     pub(super) fn meet(&self, ray: &Ray, direction: Direction) -> Meeting {
         let hit = self.camera_hit(*ray, direction);
+        if let Some(lamp) = self.lamp(ray, direction, hit.as_ref()) {
+            let surface = Some(lamp.surface);
+            return Meeting { hit: None, lamp: Some(lamp), direction, surface, is_clear: false };
+        }
         let is_clear = |hit: &Hit| {
             let finish = self.scene.material(hit.triangle).finish(hit.back);
             finish.is_none_or(|finish| !finish.mirror.is_black())
         };
         let surface = hit.and_then(|hit| self.bare(&hit, &self.arrival(&hit, direction)).surface);
-        Meeting { hit, direction, surface, is_clear: hit.as_ref().is_some_and(is_clear) }
+        let is_clear = hit.as_ref().is_some_and(is_clear);
+        Meeting { hit, lamp: None, direction, surface, is_clear }
+    }
+
+    /// A luminous area before what a ray hits.
+    fn lamp(&self, ray: &Ray, direction: Direction, hit: Option<&Hit>) -> Option<MetLamp> {
+        let away = |hit: &Hit| (self.scene.hit_point(hit) - ray.origin).length() as f32;
+        self.lamps?.met(ray, direction, hit.map_or(f32::INFINITY, away))
     }
 
     /// The look at what a ray of the camera met, along `facets` of a glossy surface. What was seen
@@ -197,9 +223,10 @@ impl Looker<'_> {
         let of_emitter = 1.0;
         let start =
             Progress { depth: 0, facets, near, weight, of_emitter, blurred, pixel, path, key };
-        match &meeting.hit {
-            Some(hit) => self.at(hit, meeting.direction, start),
-            None => Look::NOTHING,
+        match (&meeting.hit, meeting.lamp) {
+            (_, Some(lamp)) => Look::at_lamp(lamp),
+            (Some(hit), None) => self.at(hit, meeting.direction, start),
+            (None, None) => Look::NOTHING,
         }
     }
 
@@ -353,7 +380,14 @@ impl Looker<'_> {
         highlighted: Option<&Highlighted<'_>>,
         progress: Progress,
     ) -> Look {
-        let found = self.scene.bvh().closest_hit(&self.onwards(hit, lobe.direction));
+        let ray = self.onwards(hit, lobe.direction);
+        let found = self.scene.bvh().closest_hit(&ray);
+        // Looks at luminaires tell what a wider lobe shows of them.
+        if let Some(lamp) =
+            self.lamp(&ray, lobe.direction, found.as_ref()).filter(|_| !lobe.shows_points)
+        {
+            return Look::at_lamp(lamp);
+        }
         let Some(found) = found else { return Look::NOTHING };
         let of_emitter = lobe.density.zip(highlighted).map_or(1.0, |(density, highlighted)| {
             density / (density + highlighted.density(&found, lobe.direction))

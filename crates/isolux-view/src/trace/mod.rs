@@ -1,6 +1,7 @@
 //! Views by ray casting over an illumination map.
 
 mod dielectric;
+mod lamps;
 mod lobes;
 mod look;
 mod pixel;
@@ -14,6 +15,7 @@ use crate::image::{LuminanceImage, Middle, Reading, Size};
 use isolux::engine::Highlights;
 use isolux::map::Illuminance;
 use isolux::scene::Scene;
+use lamps::Lamps;
 use look::{Look, Looker};
 use pixel::Pixels;
 use rayon::prelude::*;
@@ -29,7 +31,7 @@ pub type Read<'a> = dyn Fn(SurfacePoint) -> Option<Illuminance> + Sync + 'a;
 ///
 /// Diffuse surfaces show L = Le + rho E / pi. Mirrors and smooth glass are followed; gloss is
 /// averaged over a few GGX facets and looks at luminaires: those without surface show only on rough surfaces, and where they are
-/// many not at all. The same arguments give the same bits on any number of threads.
+/// many not at all. Luminous areas are seen with their luminance. The same arguments give the same bits on any number of threads.
 pub fn trace(
     scene: &Scene,
     view: impl Into<View>,
@@ -51,7 +53,9 @@ pub fn trace_watched(
     let per_side = settings.samples_per_side.max(1);
     size.check_samples(per_side.saturating_mul(per_side))?;
     let highlights = if settings.highlights { Highlights::new(scene) } else { None };
-    let looker = Looker { scene, settings, highlights: highlights.as_ref(), read };
+    let lamps = Lamps::of(scene);
+    let lamps = lamps.as_ref();
+    let looker = Looker { scene, settings, highlights: highlights.as_ref(), lamps, read };
     let pixels = Pixels { looker, rays: ViewRays::new(view, size), size, per_side };
     let count = (per_side * per_side) as usize;
     let mut samples = vec![Look::NOTHING.seen(); size.pixels() * count];
@@ -71,7 +75,7 @@ pub fn trace_watched(
             *centre = middle(&looks, per_side);
         });
     }
-    let has_shadow_noise = !scene.area_luminaires().is_empty();
+    let has_shadow_noise = !scene.area_luminaires().is_empty() || lamps.is_some();
     Ok(LuminanceImage::new(size, samples, middles, has_shadow_noise))
 }
 

@@ -201,7 +201,11 @@ fn check_luminaire(luminaire: &Luminaire, groups: usize, report: Report) {
         say(format!("colour {:?}", luminaire.colour.0), "give numbers of zero or more");
     }
     match &luminaire.kind {
-        LuminaireKind::Point { position, intensity, .. } => {
+        LuminaireKind::Point { position, intensity, area, .. } => {
+            let is_size = |half: f64| half.is_finite() && half >= 0.0;
+            if area.is_some_and(|area| !area.half_m.into_iter().all(is_size)) {
+                say("its luminous area has no size".into(), "give finite sizes of zero or more");
+            }
             if !position.is_finite() {
                 say("its position is not finite".into(), "give three numbers in metres");
             }

@@ -1,5 +1,6 @@
 //! Sources of light.
 
+use super::LuminousArea;
 use crate::photometry::IntensityDistribution;
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Point, Transform};
@@ -18,11 +19,21 @@ pub struct Luminaire {
     pub kind: LuminaireKind,
 }
 
+impl LuminaireKind {
+    /// Its luminous area; `None` for a point and for parallel light.
+    pub const fn area(&self) -> Option<&LuminousArea> {
+        match self {
+            Self::Point { area, .. } => area.as_ref(),
+            Self::Directional { .. } => None,
+        }
+    }
+}
+
 /// The closed set of luminaires without surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LuminaireKind {
-    /// A point with an intensity distribution.
+    /// An intensity distribution about a point, or from a luminous area.
     Point {
         /// Where.
         position: Point,
@@ -30,6 +41,9 @@ pub enum LuminaireKind {
         world_from_luminaire: Transform,
         /// Luminous intensity.
         intensity: IntensityDistribution,
+        /// Where the light leaves from; `None` for a point.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        area: Option<LuminousArea>,
     },
     /// Parallel light from infinitely far away.
     Directional {

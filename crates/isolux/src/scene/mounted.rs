@@ -4,9 +4,9 @@
 //! above. Above it would light the upper side at no distance at all, and illuminance there would be without bound. It is taken to
 //! hang close before the side that it shines away from.
 
-use super::{Luminaire, LuminaireKind};
+use super::{Luminaire, LuminaireKind, LuminousArea};
 use crate::photometry::IntensityDistribution;
-use isolux_geometry::{Bvh, Direction, Normal, Point, Ray, Vector};
+use isolux_geometry::{Bvh, Direction, Normal, Point, Ray, Transform, Vector};
 use rayon::prelude::*;
 
 /// What is closer to a surface than so many bounds of rounding lies on it, and is taken to be twice as far from it: a tenth of a
@@ -30,10 +30,11 @@ pub(super) fn before_surfaces(
     luminaires: Vec<Luminaire>,
 ) -> Vec<Luminaire> {
     let before = |luminaire: Luminaire| match luminaire.kind {
-        LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+        LuminaireKind::Point { position, world_from_luminaire, intensity, area } => {
             let aim = || world_from_luminaire.vector(mean_direction(&intensity));
             let position = before_what_it_lies_on(bvh, normals, position, aim);
-            let kind = LuminaireKind::Point { position, world_from_luminaire, intensity };
+            let area = area.map(|area| up_to_surfaces(bvh, position, &world_from_luminaire, area));
+            let kind = LuminaireKind::Point { position, world_from_luminaire, intensity, area };
             Luminaire { kind, ..luminaire }
         }
         LuminaireKind::Directional { .. } => luminaire,
@@ -71,6 +72,39 @@ fn before_what_it_lies_on(
     position
 }
 
+/// A luminous area as far as no surface cuts it, smaller along an axis or as a whole: what is written to reach into a
+/// ceiling or a wall ends there, and none of its light is lost.
+fn up_to_surfaces(
+    bvh: &Bvh,
+    position: Point,
+    world_from_luminaire: &Transform,
+    mut area: LuminousArea,
+) -> LuminousArea {
+    // The share of a way from the position that is free, both ways.
+    let free = |half_m: [f64; 3]| {
+        let [x, y, z] = half_m;
+        let way = world_from_luminaire.vector(Vector::new(x, y, z));
+        let Some(direction) = way.direction() else { return 1.0 };
+        let (length_m, margin_m) = (way.length(), BEFORE_IT * bvh.offset_m(position));
+        // What ends a margin away from a surface stays as it is.
+        let one = |direction: Direction| {
+            let reach_m = length_m + 0.5 * margin_m;
+            let segment = Ray::new(position, direction).up_to(reach_m as f32);
+            let hit_m = bvh.closest_hit(&segment).map(|hit| f64::from(hit.t) - margin_m);
+            hit_m.map_or(1.0, |free_m| (free_m / length_m).clamp(0.0, 1.0))
+        };
+        one(direction).min(one(-direction))
+    };
+    let along = |k: usize| std::array::from_fn(|axis| if axis == k { area.half_m[k] } else { 0.0 });
+    let shares: [f64; 3] = std::array::from_fn(|k| free(along(k)));
+    (0..3).for_each(|k| area.half_m[k] *= shares[k]);
+    let [x, y, z] = area.half_m;
+    let corners = [[x, y, z], [x, y, -z], [x, -y, z], [x, -y, -z]];
+    let share = corners.into_iter().map(free).fold(1.0, f64::min);
+    area.half_m = area.half_m.map(|half| half * share);
+    area
+}
+
 /// The mean of the directions that light goes, in the luminaire's frame: the shorter, the less it faces anywhere.
 fn mean_direction(intensity: &IntensityDistribution) -> Vector {
     let at = |k: usize| (k as f64 + 0.5) / STEPS as f64;
@@ -99,6 +133,7 @@ mod tests {
             position: Point::new(4.0, 3.0, written_m),
             world_from_luminaire: Transform::scale(1.0, 1.0, if turned { -1.0 } else { 1.0 }),
             intensity,
+            area: None,
         };
         let luminaires =
             vec![Luminaire { name: "lamp".into(), group: 0, colour: Rgb::WHITE, kind }];

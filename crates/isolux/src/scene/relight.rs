@@ -89,9 +89,9 @@ impl Dimmer {
     fn dimmed(&mut self, kind: &LuminaireKind) -> LuminaireKind {
         match kind.clone() {
             kind if self.factor == 1.0 => kind,
-            LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+            LuminaireKind::Point { position, world_from_luminaire, intensity, area } => {
                 let intensity = self.scaled(&intensity);
-                LuminaireKind::Point { position, world_from_luminaire, intensity }
+                LuminaireKind::Point { position, world_from_luminaire, intensity, area }
             }
             LuminaireKind::Directional { direction, illuminance_lx } => {
                 let illuminance_lx = illuminance_lx * self.factor;

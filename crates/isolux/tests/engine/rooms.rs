@@ -53,6 +53,7 @@ pub(crate) fn lamp(position: [f64; 3], intensity_cd: f64) -> Luminaire {
             position: Point::from(position),
             world_from_luminaire: Transform::IDENTITY,
             intensity: IntensityDistribution::Isotropic { intensity_cd },
+            area: None,
         },
     }
 }

@@ -68,7 +68,7 @@ fn steps_m(run: &[Luminaire], counts: [u32; 3]) -> Option<[f64; 3]> {
 }
 
 fn is_like(luminaire: &Luminaire, first: &Luminaire) -> bool {
-    let LuminaireKind::Point { world_from_luminaire, intensity, .. } = &luminaire.kind else {
+    let LuminaireKind::Point { world_from_luminaire, intensity, area, .. } = &luminaire.kind else {
         return false;
     };
     let LuminaireKind::Point { world_from_luminaire: turn, intensity: same, .. } = &first.kind
@@ -79,6 +79,7 @@ fn is_like(luminaire: &Luminaire, first: &Luminaire) -> bool {
         && luminaire.colour == first.colour
         && world_from_luminaire == turn
         && intensity == same
+        && area.as_ref() == first.kind.area()
 }
 
 fn is_array(run: &[Luminaire], [nx, ny, nz]: [u32; 3], steps: [f64; 3]) -> bool {

@@ -6,7 +6,9 @@ use super::numbers::shortest;
 use super::text::{colour, number, quoted, triple};
 use isolux::geometry::{Direction, Transform, Vector};
 use isolux::photometry::IntensityDistribution;
-use isolux::scene::{LuminaireKind, SceneParts, UpAxis, world_from_luminaire};
+use isolux::scene::{
+    AreaShape, LuminaireKind, LuminousArea, SceneParts, UpAxis, world_from_luminaire,
+};
 use isolux::units::Rgb;
 
 pub(super) fn text(parts: &SceneParts, catalogue: &Catalogue) -> String {
@@ -37,9 +39,12 @@ fn entry(parts: &SceneParts, run: &Run, catalogue: &Catalogue) -> String {
             line("direction", triple((*direction).to_vector().into()));
             line("directional", format!("{{ illuminance_lx = {} }}", number(*illuminance_lx)));
         }
-        LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+        LuminaireKind::Point { position, world_from_luminaire, intensity, area } => {
             let (key, value, dimming) = light(intensity, catalogue);
             line(key, value);
+            if let Some(area) = luminous_area(*area, intensity) {
+                line("luminous_area", area);
+            }
             if dimming != 1.0 {
                 line("dimming", number(dimming));
             }
@@ -82,6 +87,22 @@ fn light(intensity: &IntensityDistribution, catalogue: &Catalogue) -> (&'static 
             ("ies", quoted(name), dimming)
         }
     }
+}
+
+/// The luminous area as a value; `None` where it follows from the distribution.
+fn luminous_area(area: Option<LuminousArea>, intensity: &IntensityDistribution) -> Option<String> {
+    let Some(LuminousArea { shape, half_m }) = area else {
+        return matches!(intensity, IntensityDistribution::Web(_)).then(|| "\"point\"".to_owned());
+    };
+    let shape = match shape {
+        AreaShape::Box => "box",
+        AreaShape::CylinderX => "cylinder_x",
+        AreaShape::CylinderY => "cylinder_y",
+        AreaShape::CylinderZ => "cylinder_z",
+        AreaShape::Ellipsoid => "ellipsoid",
+    };
+    let size_m = triple(half_m.map(|half| 2.0 * half));
+    Some(format!("{{ shape = {}, size_m = {size_m} }}", quoted(shape)))
 }
 
 /// Aim and turn (degrees) of which [`world_from_luminaire`] makes a rotation.

@@ -105,9 +105,10 @@ impl<'s> Emission<'s> {
             Emitter::Other(luminaire) => luminaire,
         };
         let (origin, direction) = match &luminaire.kind {
-            LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+            LuminaireKind::Point { world_from_luminaire, intensity, .. } => {
                 let local = intensity.sample(square)?;
-                (*position, world_from_luminaire.vector(local.to_vector()).direction()?)
+                let direction = world_from_luminaire.vector(local.to_vector()).direction()?;
+                (origin(&luminaire.kind, other, place)?, direction)
             }
             LuminaireKind::Directional { direction, .. } => {
                 (self.on_disc(*direction, place), *direction)
@@ -163,8 +164,9 @@ impl<'s> Emission<'s> {
             }
             Emitter::Other(luminaire) => {
                 let (origin, direction) = match &luminaire.kind {
-                    LuminaireKind::Point { position, .. } => {
-                        (*position, (to - *position).direction()?)
+                    LuminaireKind::Point { .. } => {
+                        let origin = origin(&luminaire.kind, pick, place)?;
+                        (origin, (to - origin).direction()?)
                     }
                     LuminaireKind::Directional { direction, .. } => {
                         let beyond_m = (to - self.centre).dot(direction.to_vector());
@@ -315,6 +317,15 @@ impl<'s> Emission<'s> {
             normal: Some(start.normal),
         }
     }
+}
+
+/// Where light leaves a luminaire: its position, or a place of its luminous area; `None` for parallel light.
+fn origin(kind: &LuminaireKind, pick: f64, [a, b]: [f64; 2]) -> Option<Point> {
+    let LuminaireKind::Point { position, world_from_luminaire, area, .. } = kind else {
+        return None;
+    };
+    let offset = area.map(|area| world_from_luminaire.vector(area.place([a, b, pick])));
+    Some(offset.map_or(*position, |offset| *position + offset))
 }
 
 /// Running sums of the areas of the triangles of an emitting surface, m2.

@@ -100,7 +100,9 @@ impl Highlighted<'_> {
             }
         }
         if *has_points {
-            lighting.points_at(&self.at, |direction, lx| found(direction, Shining::Point(lx)));
+            let dice = &mut Dice::new(Sequence::new(key.with(self.shapes.len() as u64)), 0);
+            lighting
+                .points_at(&self.at, dice, |direction, lx| found(direction, Shining::Point(lx)));
         }
     }
 

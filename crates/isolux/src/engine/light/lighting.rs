@@ -48,7 +48,7 @@ pub(crate) struct Lighting<'s> {
     pub(super) starts: Vec<usize>,
     pub(super) leaves_chains: bool,
     pub(super) left_out: f64,
-    /// Number of emitting surfaces that are not in the light tree, images included.
+    /// Number of sources with an extent that are not in the light tree, images included.
     pub(super) area_sources: usize,
     pub(super) panes: Panes,
     /// The light tree of point sources and of the faces of emitting surfaces, where they are many.
@@ -76,24 +76,19 @@ impl Lighting<'_> {
     }
 
     /// Whether direct light is measured once for the whole run, exactly or with a known error. It
-    /// is if there is no emitting surface outside the light tree.
+    /// is if no source with an extent is outside the light tree.
     pub(crate) fn is_measured_once(&self) -> bool {
         self.area_sources == 0
     }
 
-    /// Whether receivers draw from the light tree, because there are many point sources or faces.
+    /// Whether receivers draw from the light tree, because there are many point sources, or lamps with an extent in it.
     pub(crate) fn has_many(&self) -> bool {
-        self.points > MOST_POINTS_AT_RECEIVERS || self.has_faces()
+        self.points > MOST_POINTS_AT_RECEIVERS || self.tree.has_extents()
     }
 
     /// Whether there are so many sources that none of them matters alone.
     pub(crate) fn are_countless(&self) -> bool {
         self.sources.len() > MOST_POINTS_AT_RECEIVERS
-    }
-
-    /// Whether the light tree contains faces of emitting surfaces.
-    pub(crate) fn has_faces(&self) -> bool {
-        !self.tree.faces.is_empty()
     }
 
     /// Whether there is specular transport that the sources do not cover.
@@ -124,7 +119,7 @@ impl Lighting<'_> {
         self.mirrors.of(triangle, back)
     }
 
-    /// Whether [`Lighting::sampled`] is free of noise: there are few luminaires, and none is an emitting surface.
+    /// Whether [`Lighting::sampled`] is free of noise: there are few luminaires, and all are points.
     pub(crate) fn samples_exactly(&self) -> bool {
         self.area_sources == 0 && !self.has_many()
     }
@@ -145,11 +140,12 @@ impl Lighting<'_> {
         (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES)
     }
 
-    /// Whether there are only a few point luminaires and nothing specular before them. Direct light
+    /// Whether there are only a few luminaires, all points, and nothing specular before them. Direct light
     /// then evaluates all of them everywhere, without error.
     pub(crate) fn are_few_points(&self) -> bool {
-        let is_plain =
-            |s: &Source| matches!(s.kind, SourceKind::Point { .. }) && s.chain.is_empty();
+        let is_plain = |s: &Source| {
+            matches!(s.kind, SourceKind::Point { area: None, .. }) && s.chain.is_empty()
+        };
         self.sources.len() <= MOST_EXACT_SOURCES
             && self.sources.iter().all(is_plain)
             && !self.panes.exist()

@@ -69,7 +69,7 @@ impl<'s> Lighting<'s> {
         });
         let is_other = |&k: &u32| !is_in_tree(&sources[k as usize]);
         self.others = (0..sources.len() as u32).filter(is_other).collect();
-        self.area_sources = self.others().filter(|source| source.is_area()).count();
+        self.area_sources = self.others().filter(|source| source.has_extent()).count();
         self.tree = tree;
     }
 }

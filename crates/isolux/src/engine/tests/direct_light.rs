@@ -104,6 +104,7 @@ fn webs_turn_with_their_luminaire() {
             position: Point::new(0.0, 0.0, 5.0),
             world_from_luminaire,
             intensity: lopsided(),
+            area: None,
         })],
     );
     for (place, candela) in [

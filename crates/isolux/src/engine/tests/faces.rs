@@ -10,7 +10,7 @@ const LOOKS: u64 = 100;
 const RAYS: usize = 16;
 
 /// Largest deviation of means of many estimates from means of looks at all surfaces, in standard errors of their difference.
-fn deviation(
+pub(super) fn deviation(
     scene: &Scene,
     estimate: impl Fn(&Lighting, &SurfacePoint, u64) -> Rgb,
     receivers: impl Iterator<Item = SurfacePoint>,

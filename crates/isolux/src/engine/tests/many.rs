@@ -49,7 +49,12 @@ fn lamps(count: u64) -> Vec<Luminaire> {
             if patch % 4 == 3 { web.scaled(1.0 + 0.1 * number(k, 7)) } else { kind(patch) };
         Luminaire {
             colour: Rgb::new(1.0, 0.5 + 0.4 * number(k, 8), 0.2),
-            ..luminaire(LuminaireKind::Point { position, world_from_luminaire, intensity })
+            ..luminaire(LuminaireKind::Point {
+                position,
+                world_from_luminaire,
+                intensity,
+                area: None,
+            })
         }
     };
     (0..count).map(lamp).collect()

@@ -29,6 +29,7 @@ mod held;
 mod judging;
 mod kept;
 mod landing;
+mod luminous;
 pub(super) mod many;
 mod middles;
 mod mirrors;
@@ -97,7 +98,7 @@ fn luminaire(kind: LuminaireKind) -> Luminaire {
 /// A luminaire that stands upright.
 pub(super) fn point(position: [f64; 3], intensity: IntensityDistribution) -> Luminaire {
     let (position, world_from_luminaire) = (Point::from(position), Transform::IDENTITY);
-    luminaire(LuminaireKind::Point { position, world_from_luminaire, intensity })
+    luminaire(LuminaireKind::Point { position, world_from_luminaire, intensity, area: None })
 }
 
 pub(super) fn isotropic(position: [f64; 3], intensity_cd: f64) -> Luminaire {

@@ -199,6 +199,7 @@ fn two_rooms(sheet_x: f64) -> Scene {
             position: Point::from(position),
             world_from_luminaire: Transform::IDENTITY,
             intensity: IntensityDistribution::Isotropic { intensity_cd },
+            area: None,
         },
     };
     Scene::assemble(SceneParts {

@@ -59,7 +59,7 @@ impl Lighting<'_> {
         let look = &mut Dice::new(sequence, REPLICATES);
         let teeth = self.teeth(&cut, at, (goal.first_look, goal_lx), look);
         let values = self.replicates(&cut, at, teeth, sequence);
-        let is_exact = |teeth: usize| self.asks_all(&cut, teeth) && !self.has_faces();
+        let is_exact = |teeth: usize| self.asks_all(&cut, teeth) && !self.tree.has_extents();
         let rays = teeth as f64 * f64::from(REPLICATES);
         let unseen_lx = if is_exact(teeth) { 0.0 } else { cut.parts.total / rays };
         let (lx, variance) = mean_and_variance(&values);
@@ -153,7 +153,7 @@ impl Lighting<'_> {
     /// Without faces one evaluation serves all replicates; with faces, which one sample does not
     /// determine, every replicate needs its own.
     fn asks_all(&self, cut: &Cut, teeth: usize) -> bool {
-        let looks = if self.has_faces() { 1 } else { REPLICATES as usize };
+        let looks = if self.tree.has_extents() { 1 } else { REPLICATES as usize };
         looks * teeth >= self.count(cut)
     }
 
@@ -166,7 +166,7 @@ impl Lighting<'_> {
         sequence: Sequence,
     ) -> [Rgb; REPLICATES as usize] {
         let asks_all = self.asks_all(cut, teeth);
-        let asks_once = asks_all && !self.has_faces();
+        let asks_once = asks_all && !self.tree.has_extents();
         let each = |dice: &mut Dice| self.lit_by_each(cut, at, teeth, dice);
         let of_each = asks_once.then(|| each(&mut Dice::new(sequence, 0)));
         let values = [const { Rgb::BLACK }; REPLICATES as usize];

@@ -6,6 +6,7 @@ use super::super::sources::{
     Emitter, MOST_TRIANGLES_A_SAMPLE, Source, SourceKind, Target, facing_cos,
 };
 use super::clusters::Parted;
+use super::luminous::LuminousSource;
 use super::measured::{Measured, REPLICATES, STUDENT_FACTOR};
 use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
 use crate::sampling::Sequence;
@@ -126,7 +127,7 @@ impl Lighting<'_> {
         }
     }
 
-    /// Illuminance from the emitting surfaces among some sources, with the variance of its mean.
+    /// Illuminance from the emitting surfaces and luminous areas among some sources, with the variance of its mean.
     /// `goal_lx` gives the allowed standard error for the light of a first measurement, lx. If the
     /// first standard error is larger, the surfaces that exceed their part of it get more shadow rays.
     pub(crate) fn of_surfaces(
@@ -137,11 +138,10 @@ impl Lighting<'_> {
         [fewest, most]: [usize; 2],
         sequence: Sequence,
     ) -> Measured {
-        let surface = |k: u32| Some((k, AreaSource::of(&self.sources[k as usize])?));
-        let surfaces: Vec<_> = which.filter_map(surface).collect();
-        let measured = |&(k, surface): &(u32, AreaSource<'_>), samples: usize| {
+        let surfaces: Vec<u32> = which.filter(|&k| self.sources[k as usize].has_extent()).collect();
+        let measured = |&k: &u32, samples: usize| {
             let numbers = [sequence.fork(k, samples as u32), sequence];
-            self.of_surface(surface, at, samples, numbers)
+            self.of_surface(&self.sources[k as usize], at, samples, numbers)
         };
         let mut found: Vec<Measured> = surfaces.iter().map(|of| measured(of, fewest)).collect();
         let sum = |found: &[Measured]| Measured {
@@ -163,27 +163,27 @@ impl Lighting<'_> {
         sum(&found)
     }
 
-    /// Illuminance from one emitting surface, by `samples` shadow rays in each replicate. If no ray
+    /// Illuminance from one source with an extent, by `samples` shadow rays in each replicate. If no ray
     /// meets light, the variance assumes that the next one would.
     fn of_surface(
         &self,
-        surface: AreaSource<'_>,
+        source: &Source,
         at: &SurfacePoint,
         samples: usize,
         [own, of_looks]: [Sequence; 2],
     ) -> Measured {
         let of_each: [Rgb; REPLICATES as usize] = std::array::from_fn(|replicate| {
             let mut dice = Dice::new(own, replicate as u32);
-            self.lit_by_area(surface, at, samples, &mut dice)
+            self.lit_by(source, at, samples, &mut dice)
         });
         let (lx, variance) = mean_and_variance(&of_each);
         if !lx.is_black() {
             return Measured { lx, variance };
         }
         let samples = samples as f64 * f64::from(REPLICATES);
-        let unseen_lx = match self.openings.view(surface.source, at) {
-            Some(view) => surface.source.colour.luminance() * view.unseen(samples),
-            None => unhidden_lx(surface, at, &mut Dice::new(of_looks, 0)) / samples,
+        let unseen_lx = match self.openings.view(source, at) {
+            Some(view) => source.colour.luminance() * view.unseen(samples),
+            None => self.unhidden_lx(source, at, &mut Dice::new(of_looks, 0)) / samples,
         };
         Measured { lx, variance: unseen_lx * unseen_lx }
     }
@@ -224,19 +224,24 @@ impl Lighting<'_> {
         };
         source.colour * mean(samples, dice, one) * shape.whole
     }
-}
 
-/// Unoccluded illuminance from an emitting surface, lx; a rough value if the surface is partitioned.
-fn unhidden_lx(surface: AreaSource<'_>, at: &SurfacePoint, dice: &mut Dice) -> f64 {
-    let AreaSource { source, emitter, triangles } = surface;
-    let Some(shape) = Shape::new(at, (emitter, triangles), 1) else { return 0.0 };
-    let one = |dice: &mut Dice| Rgb::grey(shape.place(dice).map_or(0.0, |place| place.share));
-    let samples = if let Seen::Pieces(_) = shape.seen { 1 } else { ROUGH_SAMPLES };
-    source.colour.luminance() * mean(samples, dice, one).luminance() * shape.whole
+    /// Unoccluded illuminance from a source with an extent, lx; a rough value if its surface is partitioned.
+    fn unhidden_lx(&self, source: &Source, at: &SurfacePoint, dice: &mut Dice) -> f64 {
+        if let Some(luminous) = LuminousSource::of(source) {
+            return self.unhidden(luminous, at).luminance();
+        }
+        let Some(AreaSource { emitter, triangles, .. }) = AreaSource::of(source) else {
+            return 0.0;
+        };
+        let Some(shape) = Shape::new(at, (emitter, triangles), 1) else { return 0.0 };
+        let one = |dice: &mut Dice| Rgb::grey(shape.place(dice).map_or(0.0, |place| place.share));
+        let samples = if let Seen::Pieces(_) = shape.seen { 1 } else { ROUGH_SAMPLES };
+        source.colour.luminance() * mean(samples, dice, one).luminance() * shape.whole
+    }
 }
 
 /// Mean of samples over a low-discrepancy sequence.
-fn mean(samples: usize, dice: &mut Dice, mut one: impl FnMut(&mut Dice) -> Rgb) -> Rgb {
+pub(super) fn mean(samples: usize, dice: &mut Dice, mut one: impl FnMut(&mut Dice) -> Rgb) -> Rgb {
     if samples == 1 {
         return one(dice);
     }

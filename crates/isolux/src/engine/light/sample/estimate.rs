@@ -102,7 +102,7 @@ impl Lighting<'_> {
         }
         let mut sum = Rgb::BLACK;
         for source in &self.sources {
-            if !source.chain.is_empty() || source.is_area() {
+            if !source.chain.is_empty() || source.has_extent() {
                 sum += share * self.lit_by(source, at, 1, dice);
             } else if let Some(arriving) = sources::unoccluded_if(self.scene, source, at, |_| true)
             {

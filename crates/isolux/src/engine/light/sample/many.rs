@@ -67,7 +67,7 @@ impl Lighting<'_> {
         dice: &mut Dice,
     ) -> Rgb {
         let samples = (rays / self.area_sources.max(1)).max(1);
-        let is_exact = self.tree.faces.is_empty() && self.points <= MOST_POINTS_A_RAY * rays;
+        let is_exact = !self.tree.has_extents() && self.points <= MOST_POINTS_A_RAY * rays;
         if self.tree.lamps.is_empty() || is_exact {
             return self.by_all(at, samples, dice);
         }
@@ -143,10 +143,10 @@ impl Lighting<'_> {
 
     /// Whether one shadow ray determines all light of a lamp.
     fn is_exact(&self, lamp: u32) -> bool {
-        self.tree.face(&self.tree.lamps[lamp as usize]).is_none()
+        self.tree.radius_m(&self.tree.lamps[lamp as usize]) == 0.0
     }
 
-    /// Direct illuminance from all lamps of a cut, each evaluated. Faces share `rays` in proportion
+    /// Direct illuminance from all lamps of a cut, each evaluated. Lamps with an extent share `rays` in proportion
     /// to their expected light.
     pub(crate) fn lit_by_each(
         &self,
@@ -207,7 +207,7 @@ impl Lighting<'_> {
         self.lit_by_lamp(view, lamps[k], at, dice) / chance
     }
 
-    /// Direct illuminance from one lamp in a view; from a face by one shadow ray.
+    /// Direct illuminance from one lamp in a view; from a face or a luminous area by one shadow ray.
     pub(crate) fn lit_by_lamp(
         &self,
         view: &View,
@@ -224,11 +224,16 @@ impl Lighting<'_> {
             return self.lit_by_face(view.chain, (face, lamp.colour), at, dice);
         }
         let kind = &self.tree.kinds[lamp.kind as usize];
-        let Some(reaching) = view.reaching(lamp.position, &kind.frame) else {
+        let place = self.tree.area(self.scene, lamp).map_or(lamp.position, |area| {
+            let ([a, b], [c, _], [x, y, z]) = (dice.pair(), dice.pair(), kind.frame);
+            let local = area.place([a, b, c]);
+            lamp.position + x * local.x + y * local.y + z * local.z
+        });
+        let Some(reaching) = view.reaching(place, &kind.frame) else {
             return Rgb::BLACK;
         };
         let planes = chain.iter().map(|&p| &self.mirrors.planes[p as usize]);
-        let target = Target::Point(planes.clone().fold(lamp.position, |p, plane| plane.image(p)));
+        let target = Target::Point(planes.clone().fold(place, |p, plane| plane.image(p)));
         let share = self.visibility(chain, at, target, None);
         if share.is_black() {
             return Rgb::BLACK;

@@ -4,6 +4,7 @@ use super::super::lighting::Lighting;
 use super::super::sources;
 use super::super::sources::{Source, Target};
 use super::area::AreaSource;
+use super::luminous::LuminousSource;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
 use isolux_geometry::Direction;
@@ -16,19 +17,22 @@ impl Lighting<'_> {
         samples: usize,
         dice: &mut Dice,
     ) -> Rgb {
-        match AreaSource::of(source) {
-            Some(surface) => self.lit_by_area(surface, at, samples, dice),
-            None => self.lit_by_point(source, at),
+        if let Some(surface) = AreaSource::of(source) {
+            self.lit_by_area(surface, at, samples, dice)
+        } else if let Some(luminous) = LuminousSource::of(source) {
+            self.lit_by_luminous(luminous, at, samples, dice)
+        } else {
+            self.lit_by_point(source, at)
         }
     }
 
-    /// Illuminance from the sources among `some` that have no surface.
+    /// Illuminance from the sources among `some` that have no extent.
     pub(crate) fn lit_by_points<'a>(
         &self,
         some: impl Iterator<Item = &'a Source>,
         at: &SurfacePoint,
     ) -> Rgb {
-        let points = some.filter(|source| !source.is_area());
+        let points = some.filter(|source| !source.has_extent());
         points.map(|source| self.lit_by_point(source, at)).sum()
     }
 
@@ -47,11 +51,20 @@ impl Lighting<'_> {
     }
 
     /// Calls `found` for every luminaire without surface, and every image of one, whose light reaches a
-    /// place. It receives the direction to the source, and the illuminance of a surface that faces it.
-    pub(crate) fn points_at(&self, at: &SurfacePoint, mut found: impl FnMut(Direction, Rgb)) {
+    /// place, of a luminous area from one place. It receives the direction to the source, and the illuminance of a
+    /// surface that faces it.
+    pub(crate) fn points_at(
+        &self,
+        at: &SurfacePoint,
+        dice: &mut Dice,
+        mut found: impl FnMut(Direction, Rgb),
+    ) {
         for source in self.sources.iter().filter(|source| !source.is_area()) {
             let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
-            let arriving = sources::unoccluded_if(self.scene, source, at, in_view);
+            let arriving = match LuminousSource::of(source) {
+                Some(luminous) => self.unhidden_from(luminous, luminous.place(dice), at),
+                None => sources::unoccluded_if(self.scene, source, at, in_view),
+            };
             let Some(arriving) = arriving else { continue };
             let towards = match arriving.target {
                 Target::Point(place) => (place - at.point).direction(),

@@ -1,6 +1,6 @@
 //! Direct light for pictures: the light without obstacles exactly, and what obstacles take away by shadow rays.
 //!
-//! All emitting surfaces share the rays, in proportion to their light without obstacles. So there is no noise
+//! All emitting surfaces and luminous areas share the rays, in proportion to their light without obstacles. So there is no noise
 //! where a place sees all of them or none, and only half-shadows need many rays. Where sources are many, the
 //! light tree draws some of them, and replicates measure the noise.
 
@@ -9,6 +9,7 @@ use super::super::polygon::steradians;
 use super::super::sources::triangle_lamps::middle_and_twice_m2;
 use super::super::sources::{Source, Target};
 use super::area::AreaSource;
+use super::luminous::LuminousSource;
 use super::many::by_area;
 use super::measured::Measured;
 use super::patches::Patches;
@@ -34,14 +35,19 @@ const EVEN: f64 = 0.01;
 /// The replicates that measure noise where the light tree draws sources.
 const DRAWINGS: usize = 4;
 
-/// A triangle of an emitting surface as a place sees it.
+/// A triangle of an emitting surface or a luminous area as a place sees it.
 struct Part<'a> {
     source: &'a Source,
-    /// Index of the triangle in the scene.
-    triangle: u32,
-    corners: [Point; 3],
+    outline: Outline<'a>,
     /// Its light without obstacles, lx.
     lx: f64,
+}
+
+/// The places of a part.
+enum Outline<'a> {
+    /// A triangle with its index in the scene.
+    Triangle(u32, [Point; 3]),
+    Luminous(LuminousSource<'a>),
 }
 
 /// The effort for direct light in a picture.
@@ -102,10 +108,16 @@ impl Lighting<'_> {
         Measured { lx: beside + lit.lx, variance }
     }
 
-    /// The triangles that a place may see.
+    /// The triangles and luminous areas that a place may see.
     fn parts(&self, at: &SurfacePoint) -> Vec<Part<'_>> {
         let mut parts = Vec::new();
         for source in &self.sources {
+            if let Some(luminous) = LuminousSource::of(source) {
+                let lx = self.unhidden(luminous, at).luminance();
+                if lx > 0.0 {
+                    parts.push(Part { source, outline: Outline::Luminous(luminous), lx });
+                }
+            }
             let Some((emitter, triangles)) = AreaSource::of(source).map(AreaSource::emitter) else {
                 continue;
             };
@@ -113,15 +125,15 @@ impl Lighting<'_> {
             for (&triangle, &corners) in emitter.indices.iter().zip(triangles) {
                 let lx = luminance * steradians(at, corners);
                 if lx > 0.0 {
-                    parts.push(Part { source, triangle, corners, lx });
+                    parts.push(Part { source, outline: Outline::Triangle(triangle, corners), lx });
                 }
             }
         }
         parts
     }
 
-    /// The light of some triangles, by rays spread evenly over it, and whether all rays found the same. Rays
-    /// are spread over the area of a triangle, and count by their light without obstacles: their ratio has no
+    /// The light of some parts, by rays spread evenly over it, and whether all rays found the same. Rays
+    /// are spread over the area of a part, and count by their light without obstacles: their ratio has no
     /// noise where all or nothing is visible, and little bias elsewhere.
     fn by_looks(
         &self,
@@ -157,18 +169,34 @@ impl Lighting<'_> {
     }
 
     fn looks(&self, part: &Part<'_>, at: &SurfacePoint, rays: usize, sequence: Sequence) -> Looks {
-        let (_, twice_m2) = middle_and_twice_m2(part.corners);
         let mut looks = Looks::default();
         for look in 0..rays as u32 {
             let dice = &mut Dice::new(sequence, look);
-            let Some((point, steradians)) = by_area(part.corners, twice_m2, at, dice) else {
-                continue;
-            };
-            let target = Target::Point(point);
-            let seen = self.visibility(&part.source.chain, at, target, Some(part.triangle));
-            looks.add(steradians, seen);
+            if let Some((light, target, triangle)) = self.look_at(part, at, dice) {
+                looks.add(light, self.visibility(&part.source.chain, at, target, triangle));
+            }
         }
         looks
+    }
+
+    /// A place of a part, with its light without obstacles, and the triangle that it lies on.
+    fn look_at(
+        &self,
+        part: &Part<'_>,
+        at: &SurfacePoint,
+        dice: &mut Dice,
+    ) -> Option<(f64, Target, Option<u32>)> {
+        match part.outline {
+            Outline::Triangle(triangle, corners) => {
+                let (_, twice_m2) = middle_and_twice_m2(corners);
+                let (point, steradians) = by_area(corners, twice_m2, at, dice)?;
+                Some((steradians, Target::Point(point), Some(triangle)))
+            }
+            Outline::Luminous(luminous) => {
+                let arriving = self.unhidden_from(luminous, luminous.place(dice), at)?;
+                Some((arriving.illuminance_lx.luminance(), arriving.target, None))
+            }
+        }
     }
 
     /// Direct light from sources drawn by the light tree.
@@ -205,9 +233,9 @@ impl Lighting<'_> {
 }
 
 impl Looks {
-    fn add(&mut self, steradians: f64, seen: Rgb) {
-        self.sums[0] += Rgb::grey(steradians);
-        self.sums[1] += seen * steradians;
+    fn add(&mut self, light: f64, seen: Rgb) {
+        self.sums[0] += Rgb::grey(light);
+        self.sums[1] += seen * light;
         let seen = seen.luminance();
         let [count, sum, squares] = self.moments;
         self.moments = [count + 1.0, sum + seen, squares + seen * seen];

@@ -7,7 +7,7 @@ pub(super) mod triangle_tree;
 use super::mirrors::planar::{MAX_CHAIN_MIRRORS, MAX_CHAINS, Mirrors};
 use crate::engine::ray::SurfacePoint;
 use crate::photometry::IntensityDistribution;
-use crate::scene::{LuminaireKind, Scene};
+use crate::scene::{LuminaireKind, LuminousArea, Scene};
 use crate::units::Rgb;
 use facets::Facets;
 use isolux_geometry::{Direction, Normal, Point, Transform, Vector};
@@ -37,12 +37,28 @@ pub(crate) struct Source {
 /// Shape of a source as seen from a receiver.
 #[derive(Clone, Debug)]
 pub(crate) enum SourceKind {
-    /// A point; `local_from_world` is linear and orthogonal (a mirror image is left-handed).
-    Point { luminaire: u32, position: Point, local_from_world: Transform },
+    /// A point or a luminous area about it; `local_from_world` is linear and orthogonal (a mirror image is
+    /// left-handed).
+    Point { luminaire: u32, position: Point, local_from_world: Transform, area: Option<Luminous> },
     /// Parallel light.
     Directional { towards: Direction, illuminance_lx: f64 },
     /// Emitting triangles, reflected by the chain, their emitting side counter-clockwise.
     Area { emitter: Emitter, triangles: Vec<[Point; 3]> },
+}
+
+/// A luminous area, with what is often asked of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Luminous {
+    pub(crate) area: LuminousArea,
+    pub(crate) radius_m: f64,
+    /// The highest luminous intensity, cd.
+    peak_cd: f64,
+}
+
+impl Luminous {
+    fn of(area: LuminousArea, intensity: &IntensityDistribution) -> Self {
+        Self { area, radius_m: area.radius_m(), peak_cd: intensity.max_intensity_cd() }
+    }
 }
 
 /// An emitting surface as a whole: its extent, and its triangles prepared for sampling.
@@ -138,6 +154,11 @@ impl Source {
     pub(crate) const fn is_area(&self) -> bool {
         matches!(self.kind, SourceKind::Area { .. })
     }
+
+    /// Whether the source has an extent: one shadow ray does not tell how much of it is hidden.
+    pub(crate) const fn has_extent(&self) -> bool {
+        matches!(self.kind, SourceKind::Area { .. } | SourceKind::Point { area: Some(_), .. })
+    }
 }
 
 /// Corners of a side of a triangle, counter-clockwise as seen from that side.
@@ -149,11 +170,14 @@ pub(crate) fn corners_seen(scene: &Scene, triangle: u32, back: bool) -> [Point; 
 fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
     let points = scene.luminaires().iter().enumerate().map(|(index, luminaire)| {
         let kind = match &luminaire.kind {
-            LuminaireKind::Point { position, world_from_luminaire, .. } => SourceKind::Point {
-                luminaire: index as u32,
-                position: *position,
-                local_from_world: transposed(world_from_luminaire),
-            },
+            LuminaireKind::Point { position, world_from_luminaire, intensity, area } => {
+                SourceKind::Point {
+                    luminaire: index as u32,
+                    position: *position,
+                    local_from_world: transposed(world_from_luminaire),
+                    area: area.map(|area| Luminous::of(area, intensity)),
+                }
+            }
             LuminaireKind::Directional { direction, illuminance_lx } => {
                 SourceKind::Directional { towards: -*direction, illuminance_lx: *illuminance_lx }
             }
@@ -202,7 +226,7 @@ fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
         return None;
     }
     let kind = match &source.kind {
-        SourceKind::Point { luminaire, position, local_from_world } => {
+        SourceKind::Point { luminaire, position, local_from_world, area } => {
             (mirror.height(*position) > 0.0).then(|| SourceKind::Point {
                 luminaire: *luminaire,
                 position: mirror.image(*position),
@@ -212,6 +236,7 @@ fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
                         .map(|axis| local_from_world.vector(mirror.image_vector(axis))),
                     translation: Vector::ZERO,
                 },
+                area: *area,
             })
         }
         SourceKind::Directional { towards, illuminance_lx } => (towards.cos(mirror.normal) > 0.0)
@@ -246,17 +271,32 @@ fn transposed(rotation: &Transform) -> Transform {
     Transform { columns: [row(0), row(1), row(2)], translation: Vector::ZERO }
 }
 
-/// Unoccluded illuminance from a point source or parallel light; `None` where it faces away, or is not in view.
+/// Unoccluded illuminance from a point source, from the middle of a luminous area, or from parallel light; `None`
+/// where it faces away, or is not in view.
 pub(crate) fn unoccluded_if(
     scene: &Scene,
     source: &Source,
     at: &SurfacePoint,
     is_in_view: impl Fn(Target) -> bool,
 ) -> Option<Arriving> {
+    let middle = match &source.kind {
+        SourceKind::Point { position, .. } => *position,
+        _ => Point::ORIGIN,
+    };
+    unoccluded_from(scene, source, middle, at, is_in_view)
+}
+
+/// Unoccluded illuminance from a point source as if it were at a place, or from parallel light; `None` where it faces
+/// away, or is not in view.
+pub(crate) fn unoccluded_from(
+    scene: &Scene,
+    source: &Source,
+    place: Point,
+    at: &SurfacePoint,
+    is_in_view: impl Fn(Target) -> bool,
+) -> Option<Arriving> {
     let (towards, target) = match &source.kind {
-        SourceKind::Point { position, .. } => {
-            ((*position - at.point).direction()?, Target::Point(*position))
-        }
+        SourceKind::Point { .. } => ((place - at.point).direction()?, Target::Point(place)),
         SourceKind::Directional { towards, .. } => (*towards, Target::Infinity(*towards)),
         SourceKind::Area { .. } => return None,
     };
@@ -265,10 +305,10 @@ pub(crate) fn unoccluded_if(
         return None;
     }
     let lx = match &source.kind {
-        SourceKind::Point { luminaire, position, local_from_world } => {
+        SourceKind::Point { luminaire, local_from_world, .. } => {
             let local = local_from_world.vector(-towards.to_vector()).direction()?;
             let candela = intensity(scene, *luminaire).intensity_cd(local);
-            candela / (*position - at.point).length_squared()
+            candela / (place - at.point).length_squared()
         }
         SourceKind::Directional { illuminance_lx, .. } => *illuminance_lx,
         SourceKind::Area { .. } => return None,
@@ -294,7 +334,7 @@ pub(crate) fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution
 }
 
 /// Weight for drawing a source at a receiver: its unoccluded illuminance, exact for points, approximate (and
-/// never zero) for surfaces. It is zero for images that `is_in_view` does not see through their mirrors.
+/// never zero) for what has an extent. It is zero for images that `is_in_view` does not see through their mirrors.
 pub(crate) fn importance(
     scene: &Scene,
     source: &Source,
@@ -306,6 +346,15 @@ pub(crate) fn importance(
             let area_m2 = emitter.area_m2;
             let distance_squared = (emitter.centre - at.point).length_squared();
             source.colour.luminance() * area_m2 / (distance_squared + area_m2)
+        }
+        SourceKind::Point { position, area: Some(area), .. } => {
+            let middle = unoccluded_if(scene, source, at, |_| true)
+                .map_or(0.0, |arriving| arriving.illuminance_lx.luminance());
+            // Where the middle gives no light, other places may.
+            let distance2 = (*position - at.point).length_squared();
+            let radius2 = area.radius_m * area.radius_m;
+            let nearness = radius2 / (distance2 + radius2);
+            middle + nearness * source.colour.luminance() * area.peak_cd / (distance2 + radius2)
         }
         _ => unoccluded_if(scene, source, at, is_in_view)
             .map_or(0.0, |arriving| arriving.illuminance_lx.luminance()),

@@ -238,14 +238,15 @@ impl View<'_> {
             return self.reflectance * self.face_weight(lamp, face);
         }
         let to = lamp.position - self.point;
-        let (height, reach_m) = (self.shading.dot(to), self.reach_m);
+        let radius_m = self.tree.radius_m(lamp);
+        let (height, reach_m) = (self.shading.dot(to), self.reach_m + radius_m);
         if height + reach_m <= 0.0
             || self.geometric.dot(to) + reach_m <= 0.0
-            || self.window.as_ref().is_some_and(|w| !w.shows(self, lamp.position, 0.0))
+            || self.window.as_ref().is_some_and(|w| !w.shows(self, lamp.position, radius_m))
         {
             return 0.0;
         }
-        let distance2 = to.length_squared();
+        let distance2 = to.length_squared().max(radius_m * radius_m);
         let kind = &self.tree.kinds[lamp.kind as usize];
         let (lobes, local) = (&self.tree.lobes, turned(&kind.frame, -to));
         let shape = lobes.plain(kind.lobe, local);

@@ -7,7 +7,7 @@ pub(super) mod lobe;
 
 use super::sources::triangle_lamps::{Face, middle_and_twice_m2};
 use crate::photometry::IntensityDistribution;
-use crate::scene::{LuminaireKind, Scene};
+use crate::scene::{LuminaireKind, LuminousArea, Scene};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Normal, Point, Vector};
 use kind::{Kind, Kinds};
@@ -74,6 +74,8 @@ pub(crate) struct Tree {
     /// Faces among the lamps, indexed by luminaire number less `first_face`.
     pub(crate) faces: Vec<Face>,
     first_face: u32,
+    /// Radii of luminous areas by luminaire, m; empty if there are none.
+    radii_m: Vec<f64>,
 }
 
 impl Tree {
@@ -83,6 +85,10 @@ impl Tree {
         let mut tree = Self { faces, first_face, ..Self::default() };
         let mut kinds = Kinds::default();
         if has_points {
+            if scene.luminaires().iter().any(|luminaire| luminaire.kind.area().is_some()) {
+                let areas = scene.luminaires().iter().map(|luminaire| luminaire.kind.area());
+                tree.radii_m = areas.map(|area| area.map_or(0.0, LuminousArea::radius_m)).collect();
+            }
             tree.add_points(scene, &mut kinds);
         }
         tree.add_faces(scene, &mut kinds);
@@ -96,7 +102,7 @@ impl Tree {
 
     fn add_points(&mut self, scene: &Scene, kinds: &mut Kinds) {
         for (index, luminaire) in scene.luminaires().iter().enumerate() {
-            let LuminaireKind::Point { position, world_from_luminaire, intensity } =
+            let LuminaireKind::Point { position, world_from_luminaire, intensity, .. } =
                 &luminaire.kind
             else {
                 continue;
@@ -141,7 +147,21 @@ impl Tree {
 
     /// Radius of a sphere about the position of a lamp that contains all of it, m.
     pub(crate) fn radius_m(&self, lamp: &Lamp) -> f64 {
-        self.face(lamp).map_or(0.0, |face| face.radius_m)
+        match self.face(lamp) {
+            Some(face) => face.radius_m,
+            None => self.radii_m.get(lamp.luminaire as usize).copied().unwrap_or(0.0),
+        }
+    }
+
+    /// Whether some lamps are faces or have a luminous area.
+    pub(crate) fn has_extents(&self) -> bool {
+        !self.faces.is_empty() || !self.radii_m.is_empty()
+    }
+
+    /// The luminous area of a lamp; `None` for a point and for a face.
+    pub(crate) fn area<'s>(&self, scene: &'s Scene, lamp: &Lamp) -> Option<&'s LuminousArea> {
+        let some = !self.radii_m.is_empty() && self.face(lamp).is_none();
+        some.then(|| scene.luminaires()[lamp.luminaire as usize].kind.area())?
     }
 
     /// Computes the running sums, and the members of clusters from them.
