@@ -59,6 +59,8 @@ export interface Luminaire {
   peak_cd: number | null;
   /** Index into `solids`: luminaires of one kind share a photometric solid. */
   solid: number | null;
+  /** What it shines from: half of the extent along C0, across it, and along `direction`, m; null of a point. */
+  area: { shape: 'box' | 'cylinder_x' | 'cylinder_y' | 'cylinder_z' | 'ellipsoid'; half_m: Vec3 } | null;
 }
 
 /** A photometric solid in the frame of the luminaire in the scene: intensity over its peak, along unit vectors. */

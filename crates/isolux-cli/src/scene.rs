@@ -146,7 +146,7 @@ mod tests {
         world_from_luminaire.columns[2].z.abs() != 1.0
     }
 
-    /// Floodlights of types A and B, one of them of a library, the other extended, on varnished walls.
+    /// Floodlights of types A and B, one of them of a library, the other a tube, on varnished walls.
     #[test]
     fn files_give_floodlights_again() {
         let home = tempfile::tempdir().unwrap();
@@ -166,7 +166,8 @@ mod tests {
                     coat = { cover = 0.7, roughness = 0.1 }\n\
                     [[geometry]]\nbox = { min = [0,0,0], max = [4,4,3], inward = true }\nmaterial = 'grey'\n\
                     [[luminaire]]\ntype = 'flood'\nposition = [1,2,2]\ngroup = 'a'\n\
-                    [[luminaire]]\nies = 'a.ies'\nposition = [2,2,2]\nextended_m = 0.2\n";
+                    [[luminaire]]\nies = 'a.ies'\nposition = [2,2,2]\n\
+                    luminous_area = { shape = 'cylinder_x', size_m = [0.4,0.2,0.2] }\n";
         std::fs::write(&scene, text).unwrap();
         let output = home.path().join("made");
         let flags = SceneFlags { scene: scene.clone(), output: output.clone(), force: false };

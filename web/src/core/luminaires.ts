@@ -1,7 +1,8 @@
-// Luminaires without surface: small lamps that glow, or their photometric solids.
+// Luminaires without surface: their luminous areas, small lamps that glow where they are points, or their photometric solids.
 
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, RawShaderMaterial, type Object3D,
+  BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh,
+  RawShaderMaterial, SphereGeometry, type Object3D,
 } from 'three';
 import type { Luminaire, SceneHeader, Solid } from '../wire';
 import { LAYER } from './model';
@@ -59,6 +60,47 @@ void main() {
 }
 `;
 
+const AREA_VERTEX = /* glsl */ `
+precision highp float;
+in vec3 position;
+in vec3 at, way, side, tint, extent;
+in float power;
+uniform mat4 viewMatrix, projectionMatrix;
+out vec3 vTint;
+out float vFacing, vPower;
+void main() {
+  vec3 part = position * extent;
+  vec4 eye = viewMatrix * vec4(at + side * part.x + cross(side, way) * part.y - way * part.z, 1.0);
+  vFacing = dot((viewMatrix * vec4(way, 0.0)).xyz, normalize(-eye.xyz));
+  vTint = tint;
+  vPower = power;
+  // Nearer along the way to the eye, so that it lies before what it hangs from and looks the same.
+  eye.xyz *= 1.0 - min(0.05, 0.2 * -eye.z) / -eye.z;
+  gl_Position = projectionMatrix * eye;
+}
+`;
+
+const AREA_FRAGMENT = /* glsl */ `
+precision highp float;
+in vec3 vTint;
+in float vFacing, vPower;
+out vec4 colour;
+void main() {
+  float bright = smoothstep(-0.25, 0.25, vFacing) * min(1.0, vPower);
+  vec3 tint = vTint / max(vTint.r, max(vTint.g, vTint.b));
+  colour = vec4(mix(vec3(0.22), mix(tint, vec3(1.0), 0.6), bright), 1.0);
+}
+`;
+
+/** Shapes of luminous areas with half extents of 1. */
+const SHAPES = {
+  box: () => new BoxGeometry(2, 2, 2),
+  cylinder_x: () => new CylinderGeometry(1, 1, 2, 48).rotateZ(Math.PI / 2),
+  cylinder_y: () => new CylinderGeometry(1, 1, 2, 48),
+  cylinder_z: () => new CylinderGeometry(1, 1, 2, 48).rotateX(Math.PI / 2),
+  ellipsoid: () => new SphereGeometry(1, 32, 16),
+} satisfies Record<NonNullable<Luminaire['area']>['shape'], () => BufferGeometry>;
+
 const SOLID_VERTEX = /* glsl */ `
 precision highp float;
 in vec3 point;
@@ -90,18 +132,27 @@ void main() {
 
 export class Luminaires {
   readonly #lamps: Mesh | null;
+  readonly #areas: Mesh[];
   readonly #solids: Mesh[];
-  /** The layer of light of each lamp, or -1. */
-  readonly #groups: number[];
+  /** The layer of light of each instance of a mesh, or -1. */
+  readonly #groups = new Map<Mesh, number[]>();
   /** Lamps wait for the first picture. */
   isReady = false;
 
   constructor(scene: SceneHeader, parent: Object3D) {
     const placed = scene.luminaires.filter(({ kind, position }) => kind === 'point' && position);
-    this.#groups = placed.map(({ group }) => scene.layers.indexOf(scene.groups[group] ?? ''));
-    this.#lamps = placed.length > 0 ? lamps(placed) : null;
+    const layered = (mesh: Mesh, all: Luminaire[]): Mesh => {
+      this.#groups.set(mesh, all.map(({ group }) => scene.layers.indexOf(scene.groups[group] ?? '')));
+      return mesh;
+    };
+    const points = placed.filter(({ area }) => !area);
+    this.#lamps = points.length > 0 ? layered(lamps(points), points) : null;
+    this.#areas = (Object.keys(SHAPES) as (keyof typeof SHAPES)[]).flatMap((shape) => {
+      const alike = placed.filter(({ area }) => area?.shape === shape);
+      return alike.length > 0 ? [layered(areas(SHAPES[shape](), alike), alike)] : [];
+    });
     this.#solids = scene.solids.map((solid, i) => solids(solid, placed.filter((l) => l.solid === i))).filter((mesh) => mesh !== null);
-    for (const mesh of [this.#lamps, ...this.#solids]) {
+    for (const mesh of [this.#lamps, ...this.#areas, ...this.#solids]) {
       if (!mesh) continue;
       mesh.frustumCulled = false;
       mesh.matrixAutoUpdate = false;
@@ -116,15 +167,17 @@ export class Luminaires {
       this.#lamps.visible = this.isReady && how === 'points';
       (this.#lamps.material as RawShaderMaterial).uniforms.uGlow!.value = glows ? 1 : 0;
     }
+    this.#areas.forEach((mesh) => (mesh.visible = this.isReady && how === 'points'));
     this.#solids.forEach((mesh) => (mesh.visible = this.isReady && how === 'solids'));
   }
 
   /** Lamps of layers that are dimmed glow less. */
   dim(factors: readonly number[]): void {
-    if (!this.#lamps) return;
-    const power = this.#lamps.geometry.getAttribute('power') as InstancedBufferAttribute;
-    this.#groups.forEach((layer, i) => power.setX(i, factors[layer] ?? 1));
-    power.needsUpdate = true;
+    for (const [mesh, layers] of this.#groups) {
+      const power = mesh.geometry.getAttribute('power') as InstancedBufferAttribute;
+      layers.forEach((layer, i) => power.setX(i, factors[layer] ?? 1));
+      power.needsUpdate = true;
+    }
   }
 
   /** Lamps are at least this many device pixels wide on pictures of this height. */
@@ -143,6 +196,7 @@ function instances(geometry: InstancedBufferGeometry, all: Luminaire[]): void {
   each('way', (l) => l.direction);
   each('side', (l) => l.c0);
   each('tint', (l) => l.colour);
+  each('extent', (l) => l.area?.half_m ?? [0, 0, 0]);
   geometry.setAttribute('power', new InstancedBufferAttribute(new Float32Array(all.length).fill(1), 1));
   geometry.instanceCount = all.length;
 }
@@ -156,6 +210,15 @@ function lamps(all: Luminaire[]): Mesh {
     glslVersion: GLSL3, vertexShader: LAMP_VERTEX, fragmentShader: LAMP_FRAGMENT, transparent: true, depthWrite: false,
     premultipliedAlpha: true, uniforms: { uSize: { value: LAMP_M }, uLeast: { value: 0.005 }, uGlow: { value: 1 } },
   });
+  return new Mesh(geometry, material);
+}
+
+function areas(shape: BufferGeometry, all: Luminaire[]): Mesh {
+  const geometry = new InstancedBufferGeometry();
+  geometry.setAttribute('position', shape.getAttribute('position'));
+  geometry.setIndex(shape.index);
+  instances(geometry, all);
+  const material = new RawShaderMaterial({ glslVersion: GLSL3, vertexShader: AREA_VERTEX, fragmentShader: AREA_FRAGMENT, side: DoubleSide });
   return new Mesh(geometry, material);
 }
 

@@ -38,6 +38,7 @@ fn record<'a>(
         illuminance_lx: None,
         peak_cd: None,
         solid: None,
+        area: one.kind.area().copied(),
     };
     match &one.kind {
         LuminaireKind::Point { position, world_from_luminaire, intensity, .. } => {

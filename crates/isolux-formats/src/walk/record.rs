@@ -1,6 +1,7 @@
 //! Headers of the containers, as `web/src/wire.ts` has them.
 
 use super::container::Section;
+use isolux::scene::LuminousArea;
 use isolux::units::Rgb;
 use serde::Serialize;
 
@@ -68,6 +69,7 @@ pub(super) struct LuminaireRecord<'a> {
     pub(super) illuminance_lx: Option<f64>,
     pub(super) peak_cd: Option<f64>,
     pub(super) solid: Option<usize>,
+    pub(super) area: Option<LuminousArea>,
 }
 
 /// Intensity over its peak, rows from nadir up, columns around.

@@ -15,6 +15,9 @@ pub struct LuminousArea {
     pub half_m: [f64; 3],
 }
 
+/// Points around a border.
+const AROUND: u32 = 32;
+
 /// The outline of a luminous area within its extent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -63,6 +66,11 @@ impl LuminousArea {
         Vector::new(x, y, z)
     }
 
+    /// Whether the third number of a place changes nothing: boxes and discs without height.
+    pub fn is_flat(&self) -> bool {
+        matches!(self.shape, AreaShape::Box | AreaShape::CylinderZ) && self.half_m[2] == 0.0
+    }
+
     /// The radius of a sphere about the middle that contains all places, m.
     pub fn radius_m(&self) -> f64 {
         let [x, y, z] = self.half_m;
@@ -75,6 +83,24 @@ impl LuminousArea {
             None => x.max(y).max(z),
         };
         reach_m * (1.0 + 1e-12)
+    }
+
+    /// Places of its border, from the middle: the corners of a box, points around ends, or over an ellipsoid. No other
+    /// place lies far beyond their hull.
+    pub fn border(&self) -> Vec<Vector> {
+        let steps = |k: u32, of: u32| f64::from(k) / f64::from(of);
+        let all = |of: [u32; 3], number: &dyn Fn([u32; 3]) -> [f64; 3]| {
+            let count = of[0] * of[1] * of[2];
+            let split = |k: u32| [k % of[0], k / of[0] % of[1], k / of[0] / of[1]];
+            (0..count).map(|k| self.place(number(split(k)))).collect()
+        };
+        match self.shape {
+            AreaShape::Box => all([2, 2, 2], &|k| k.map(f64::from)),
+            AreaShape::Ellipsoid => {
+                all([7, AROUND, 1], &|[i, j, _]| [steps(i, 6), steps(j, AROUND), 1.0])
+            }
+            _ => all([AROUND, 2, 1], &|[i, j, _]| [1.0, steps(i, AROUND), f64::from(j)]),
+        }
     }
 
     /// The area of its outline as seen along a direction in the frame of the luminaire, m2. Intensity over it is
@@ -215,6 +241,21 @@ mod tests {
                 // Five standard deviations of the count.
                 let sigma = 4.0 * (told / 4.0 / RAYS as f64).sqrt();
                 assert!((counted - told).abs() < 5.0 * sigma, "{shape:?} {counted} {told}");
+            }
+        }
+    }
+
+    #[test]
+    fn borders_reach_the_whole_extent() {
+        for shape in SHAPES {
+            let area = LuminousArea { shape, half_m: [0.6, 0.2, 0.1] };
+            let border = area.border();
+            for (axis, half) in area.half_m.into_iter().enumerate() {
+                let reach =
+                    |sign: f64| border.iter().map(|p| sign * p.component(axis)).fold(0.0, f64::max);
+                for found in [reach(1.0), reach(-1.0)] {
+                    assert!((found - half).abs() < 1e-9, "{shape:?} {axis} {found}");
+                }
             }
         }
     }

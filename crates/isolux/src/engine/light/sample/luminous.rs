@@ -7,11 +7,14 @@ use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Transform, Vector};
 
-/// Places along each side of an area for its light without obstacles: this many times its radius over its distance, so
-/// that the midpoint rule, of second order in their spacing over the distance, errs by half a hundredth.
+/// Places along each side of an area for its light without obstacles: this many times its radius over the distance of
+/// its nearest place. The midpoint rule errs in proportion to the square of their spacing over that distance, a fourth.
 const PLACES_ALONG_A_RADIUS: f64 = 8.0;
-/// The most places along a side, for areas at less than their radius.
-const MOST_PLACES_ALONG_A_SIDE: f64 = 8.0;
+/// The most places along a side, for areas that are nearly touched.
+const MOST_PLACES_ALONG_A_SIDE: f64 = 24.0;
+
+/// The fraction of the golden ratio.
+const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_8;
 
 /// A source that has a luminous area, or an image of one.
 #[derive(Clone, Copy)]
@@ -35,8 +38,16 @@ impl<'a> LuminousSource<'a> {
 
     /// A place of the area.
     pub(crate) fn place(&self, dice: &mut Dice) -> Point {
-        let ([a, b], [c, _]) = (dice.pair(), dice.pair());
+        let [a, b] = dice.pair();
+        let c = if self.area.area.is_flat() { 0.0 } else { dice.pair()[0] };
         self.at([a, b, c])
+    }
+
+    /// The distance of a point from the box around the area, m.
+    fn nearest_m(&self, from: Point) -> f64 {
+        let local = self.local_from_world.vector(from - self.position);
+        let outside = |k: usize| (local.component(k).abs() - self.area.area.half_m[k]).max(0.0);
+        Vector::new(outside(0), outside(1), outside(2)).length()
     }
 
     fn at(&self, numbers: [f64; 3]) -> Point {
@@ -47,7 +58,8 @@ impl<'a> LuminousSource<'a> {
 }
 
 impl Lighting<'_> {
-    /// Illuminance from a luminous area, by `samples` shadow rays to places spread evenly over it.
+    /// Illuminance from a luminous area, by at most `samples` shadow rays to places spread evenly over it. They are
+    /// fewer where it is small for its distance: so narrow are its half-shadows then.
     pub(super) fn lit_by_luminous(
         &self,
         luminous: LuminousSource<'_>,
@@ -55,6 +67,9 @@ impl Lighting<'_> {
         samples: usize,
         dice: &mut Dice,
     ) -> Rgb {
+        let distance_m = (luminous.position - at.point).length();
+        let extent = (2.0 * luminous.area.radius_m / distance_m).min(1.0);
+        let samples = (samples as f64 * extent).ceil().max(1.0) as usize;
         mean(samples, dice, |dice| {
             let place = luminous.place(dice);
             self.unhidden_from(luminous, place, at).map_or(Rgb::BLACK, |arriving| {
@@ -79,16 +94,17 @@ impl Lighting<'_> {
     /// Illuminance from a luminous area without obstacles, from places that are the same everywhere, so that it
     /// has no noise.
     pub(super) fn unhidden(&self, luminous: LuminousSource<'_>, at: &SurfacePoint) -> Rgb {
-        let nearness = luminous.area.radius_m / (luminous.position - at.point).length();
-        let side =
-            (PLACES_ALONG_A_RADIUS * nearness).ceil().clamp(2.0, MOST_PLACES_ALONG_A_SIDE) as u32;
+        let nearest_m = luminous.nearest_m(at.point);
+        let side = (PLACES_ALONG_A_RADIUS * luminous.area.radius_m / nearest_m)
+            .ceil()
+            .clamp(2.0, MOST_PLACES_ALONG_A_SIDE) as u32;
         let share = |k: u32| (f64::from(k) + 0.5) / f64::from(side);
         let places = side * side;
         let lit = (0..places).map(|k| {
             let (i, j) = (k % side, k / side);
-            // The third number runs through all levels once, in another order.
-            let level = f64::from((k * 7 + 3) % places) + 0.5;
-            let place = luminous.at([share(i), share(j), level / f64::from(places)]);
+            // Multiples of the golden ratio spread evenly over the third number, however many they are.
+            let level = (f64::from(k) * GOLDEN_RATIO + 0.5).fract();
+            let place = luminous.at([share(i), share(j), level]);
             self.unhidden_from(luminous, place, at).map_or(Rgb::BLACK, |a| a.illuminance_lx)
         });
         lit.sum::<Rgb>() / f64::from(places)
