@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// A run is kept as often as this, unless that took more than one part in so many of its time.
-const KEPT_AFTER: Duration = Duration::from_secs(60);
+const KEPT_AFTER: Duration = Duration::from_secs(10);
 const KEEPING: u32 = 100;
 
 /// Where the state of a map's run is kept.
@@ -185,7 +185,7 @@ mod tests {
             keeper.look(so_far);
             Watch::Continue
         });
-        // The first increment was due, the others are within the minute.
+        // The first increment was due, the others are within the ten seconds.
         let kept = read(&output, u64::MAX).unwrap().unwrap();
         assert_eq!(kept.increments, 1);
         let resumed = solve(&scene, &request, Some(&kept), &mut |_| Watch::Continue);

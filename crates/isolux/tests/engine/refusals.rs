@@ -44,6 +44,10 @@ fn other_runs_are_not_resumed() {
     let other_seed = SolveRequest { seed: 2, ..request.clone() };
     let found = resume(&other_seed, &state);
     assert_eq!(found.map(|s| s.map), Err(SolveError::OtherRun("the seed")));
+    let mut other_build = state.clone();
+    other_build.identity.build = "another".to_owned();
+    let found = resume(&request, &other_build);
+    assert_eq!(found.map(|s| s.map), Err(SolveError::OtherRun("the build of isolux")));
     let mut short = state.clone();
     short.receivers.pop();
     assert!(resume(&request, &short).is_err());

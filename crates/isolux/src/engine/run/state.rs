@@ -53,6 +53,9 @@ pub struct RunIdentity {
     pub scene_hash: String,
     /// The version of isolux.
     pub version: String,
+    /// A hash of the engine's sources, which two builds of one version may differ in.
+    #[serde(default)]
+    pub build: String,
     /// The method of computation.
     pub method: Method,
     /// The seed of the random numbers.
@@ -83,6 +86,7 @@ impl RunIdentity {
         Self {
             scene_hash: scene.hash(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
+            build: env!("SOURCES_HASH").to_owned(),
             method: request.method,
             seed: request.seed,
             accuracy: request.accuracy,
@@ -98,6 +102,7 @@ impl RunIdentity {
         let differs = [
             ("the scene", self.scene_hash == saved.scene_hash),
             ("the version of isolux", self.version == saved.version),
+            ("the build of isolux", self.build == saved.build),
             ("the method", self.method == saved.method),
             ("the seed", self.seed == saved.seed),
             ("the accuracy", self.accuracy == saved.accuracy),
