@@ -225,17 +225,17 @@ pub(crate) struct GridFlags {
     #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "u", requires = "v")]
     pub corner: Option<[f64; 3]>,
     /// One side of it
-    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "corner")]
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::side_m, allow_hyphen_values = true, requires = "corner")]
     pub u: Option<[f64; 3]>,
     /// The other side, at right angles
-    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "corner")]
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::side_m, allow_hyphen_values = true, requires = "corner")]
     pub v: Option<[f64; 3]>,
     /// Distance of points, m [default: that of EN 12464-1]
-    #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true)]
+    #[arg(long, value_name = "M", value_parser = quantity::spacing_m, allow_hyphen_values = true)]
     pub spacing: Option<f64>,
     /// Width of the band along the sides that is left out, m [default: with --height half a metre or 15 % of the
     /// shorter side, whichever is less; else none]
-    #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true)]
+    #[arg(long, value_name = "M", value_parser = quantity::border_m, allow_hyphen_values = true)]
     pub border: Option<f64>,
     /// The share of the initial light that is left when maintained: 0.8 or 80%; 1 is all of it [default: the grid's, else 1]
     #[arg(long, value_name = "SHARE", value_parser = quantity::maintenance_factor, allow_hyphen_values = true)]

@@ -85,7 +85,7 @@ fn camera(scene: &Scene, position: Point, number: usize) -> Camera {
     let (sin, cos) = libm::sincos(TAU * number as f64 / DIRECTIONS as f64);
     let towards = east * cos + north * sin - up * DESCENT;
     Camera {
-        name: "inside".to_owned(),
+        name: super::OWN.to_owned(),
         position,
         direction: towards.direction().unwrap_or(Direction::X),
         up: up_of(scene),

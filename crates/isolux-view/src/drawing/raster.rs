@@ -6,14 +6,16 @@ use crate::picture::Picture;
 use crate::stroke::stroke;
 use crate::text::Font;
 
+/// Width of the rim of letters with a halo, pixels.
+const RIM: i64 = 2;
 /// Rows of samples in a pixel of an area.
 const ROWS: i64 = 4;
 
 /// The font of letters of a size.
 pub(super) fn font(letters: Letters) -> Font {
-    Font::for_picture(match letters {
-        Letters::Small => 0,
-        Letters::Large => 1000,
+    Font::of_height(match letters {
+        Letters::Small => 16.0,
+        Letters::Large => 24.0,
     })
 }
 
@@ -104,8 +106,6 @@ fn cover_span(cover: &mut [f64], from: f64, to: f64) {
 }
 
 fn draw_text(on: &mut Picture, lettering: &Lettering) {
-    const AROUND: [(i64, i64); 8] =
-        [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, 1), (-1, 1), (1, -1)];
     let font = font(lettering.letters);
     let width = font.width(&lettering.text) as f64;
     let left = match lettering.anchor {
@@ -115,7 +115,7 @@ fn draw_text(on: &mut Picture, lettering: &Lettering) {
     };
     let (x, y) = (left.round() as i64, lettering.at[1].round() as i64 - font.height() / 2);
     if let Some(halo) = lettering.halo {
-        for (dx, dy) in AROUND {
+        for (dx, dy) in (-RIM..=RIM).flat_map(|dx| (-RIM..=RIM).map(move |dy| (dx, dy))) {
             font.write(on, (x + dx, y + dy), &lettering.text, halo);
         }
     }

@@ -3,13 +3,41 @@
 use super::frame::{Place, Plane};
 use super::section::Piece;
 
+/// What is interpolated of values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Scale {
+    /// The values themselves.
+    Even,
+    /// Their logarithms; what lies below `least` counts as that.
+    Ratios { least: f64 },
+}
+
+impl Scale {
+    fn of(self, lx: f64) -> f64 {
+        match self {
+            Self::Even => lx,
+            Self::Ratios { least } => libm::log(lx.max(least)),
+        }
+    }
+
+    /// The value that such a number stands for.
+    fn lx(self, number: f64) -> f64 {
+        match self {
+            Self::Even => number,
+            Self::Ratios { .. } => libm::exp(number),
+        }
+    }
+}
+
 /// Values between points. Away from walls they are cubics along both sides, whose slopes are limited (after van Leer 1977), so that
 /// values beside a steep step lie hardly beyond those of the points. Beside walls, and where points have no value, they follow the
 /// slopes of the points that are seen from the place. In the outer half cell they go on straight. Nowhere do they lie beyond
 /// the least and the greatest value.
 pub(super) struct Field<'a> {
     plane: &'a Plane,
-    values: &'a [Option<f64>],
+    scale: Scale,
+    /// At the points, in the numbers of the scale.
+    values: Vec<Option<f64>>,
     /// Pieces of the section near each cell, whose corners are points; half cells at the edges are cells, too.
     near: Vec<Vec<Piece>>,
     range: (f64, f64),
@@ -27,9 +55,10 @@ impl<'a> Field<'a> {
     /// `None` where no point has a value.
     pub(super) fn new(
         plane: &'a Plane,
-        values: &'a [Option<f64>],
+        (lx, scale): (&[Option<f64>], Scale),
         pieces: &[Piece],
     ) -> Option<Self> {
+        let values: Vec<Option<f64>> = lx.iter().map(|lx| lx.map(|lx| scale.of(lx))).collect();
         let known = || values.iter().flatten().copied();
         let range = (known().reduce(f64::min)?, known().reduce(f64::max)?);
         let cells = plane.counts.map(|count| count as usize + 1);
@@ -50,7 +79,7 @@ impl<'a> Field<'a> {
                 }
             }
         }
-        Some(Self { plane, values, near, range })
+        Some(Self { plane, scale, values, near, range })
     }
 
     /// At a place within the grid, where something is known.
@@ -64,7 +93,7 @@ impl<'a> Field<'a> {
         let cell = [0, 1].map(|k| (index[k].floor() as i64 + 1).clamp(0, counts[k] as i64));
         let smooth = self.is_free(cell).then(|| self.smooth(cell, index)).flatten();
         let value = smooth.or_else(|| self.seen(cell, place, index))?;
-        Some(value.clamp(self.range.0, self.range.1))
+        Some(self.scale.lx(value.clamp(self.range.0, self.range.1)))
     }
 
     fn value(&self, [i, j]: [i64; 2]) -> Option<f64> {
@@ -219,7 +248,7 @@ mod tests {
     fn beside_a_step_nothing_is_higher_or_lower() {
         let plane = plane(4.0, 1.0);
         let values = [500.0, 500.0, 20.0, 20.0].map(Some);
-        let field = Field::new(&plane, &values, &[]).unwrap();
+        let field = Field::new(&plane, (&values, Scale::Even), &[]).unwrap();
         for k in 0..=40 {
             let value = field.at([0.1 * f64::from(k), 0.5]).unwrap();
             assert!((20.0..=500.0).contains(&value), "{k}: {value}");
@@ -231,6 +260,26 @@ mod tests {
     }
 
     #[test]
+    fn lines_around_a_bright_point_are_round() {
+        let plane = plane(5.0, 5.0);
+        // Logarithms that fall with the square of the distance: the slopes of cubics are those of the parabola.
+        let at = |s: f64, t: f64| 800.0 * libm::exp(-(s - 2.5).powi(2) - (t - 2.5).powi(2));
+        let mut values = Vec::new();
+        for j in 0..5 {
+            values.extend((0..5).map(|i| Some(at(f64::from(i) + 0.5, f64::from(j) + 0.5))));
+        }
+        let field = Field::new(&plane, (&values, Scale::Ratios { least: 1e-3 }), &[]).unwrap();
+        let around = |degrees: i32| {
+            let (sine, cosine) = libm::sincos(f64::from(degrees).to_radians());
+            field.at([2.5 + 0.8 * cosine, 2.5 + 0.8 * sine]).unwrap()
+        };
+        let all: Vec<f64> = (0..360).step_by(15).map(around).collect();
+        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+        let greatest = all.iter().copied().fold(0.0, f64::max);
+        assert!(greatest < 1.05 * least, "{least} to {greatest}");
+    }
+
+    #[test]
     fn a_plane_is_kept_to_its_edges() {
         let plane = plane(4.0, 3.0);
         let at = |s: f64, t: f64| 100.0 + 10.0 * s + 7.0 * t;
@@ -238,7 +287,7 @@ mod tests {
         for j in 0..3 {
             values.extend((0..4).map(|i| Some(at(f64::from(i) + 0.5, f64::from(j) + 0.5))));
         }
-        let field = Field::new(&plane, &values, &[]).unwrap();
+        let field = Field::new(&plane, (&values, Scale::Even), &[]).unwrap();
         for place in [[0.7, 0.9], [2.0, 2.4], [3.3, 1.1], [2.0, 0.4]] {
             assert!((field.at(place).unwrap() - at(place[0], place[1])).abs() < 1e-9, "{place:?}");
         }
@@ -252,21 +301,21 @@ mod tests {
         let plane = plane(4.0, 1.0);
         let values = [Some(100.0), Some(200.0), Some(900.0), None];
         let wall = [[2.2, -1.0], [2.2, 2.0]];
-        let field = Field::new(&plane, &values, &[wall]).unwrap();
+        let field = Field::new(&plane, (&values, Scale::Even), &[wall]).unwrap();
         // Up to the wall it goes on as between the points before it; behind there is one alone.
         assert!((field.at([2.1, 0.5]).unwrap() - 260.0).abs() < 1e-9);
         assert_eq!(field.at([2.3, 0.5]), Some(900.0));
         assert_eq!(field.at([2.9, 0.5]), Some(900.0));
         let walls = [wall, [[3.0, -1.0], [3.0, 2.0]]];
-        let field = Field::new(&plane, &values, &walls).unwrap();
+        let field = Field::new(&plane, (&values, Scale::Even), &walls).unwrap();
         assert_eq!(field.at([3.2, 0.5]), None);
     }
 
     #[test]
     fn a_grid_of_one_point_has_one_value() {
         let plane = plane(1.0, 1.0);
-        let field = Field::new(&plane, &[Some(7.0)], &[]).unwrap();
+        let field = Field::new(&plane, (&[Some(7.0)], Scale::Even), &[]).unwrap();
         assert_eq!((field.at([0.1, 0.9]), field.at([0.5, 0.5])), (Some(7.0), Some(7.0)));
-        assert!(Field::new(&plane, &[None], &[]).is_none());
+        assert!(Field::new(&plane, (&[None], Scale::Even), &[]).is_none());
     }
 }

@@ -5,8 +5,8 @@ use isolux::geometry::{Point, Ray, Vector};
 use isolux::scene::{LuminaireKind, Scene};
 use std::collections::HashMap;
 
-/// Points of one name at most so far apart, m, belong to one luminaire, whose opening they fill.
-const OPENING_M: f64 = 0.5;
+/// Points of one name, each at most so far from another, m, belong to one luminaire, whose opening they fill.
+const OPENING_M: f64 = 1.0;
 /// A luminaire is looked for from the plane up to here and from so far beside it, m: a housing hides its own light.
 const BESIDE_M: f64 = 0.4;
 /// Short of the luminaire itself, m.
@@ -51,7 +51,8 @@ fn point_sources(scene: &Scene) -> Vec<Source> {
         let LuminaireKind::Point { position, .. } = &luminaire.kind else { continue };
         let joins = |known: &&mut Source| {
             let is_near = |point: &Point| (*point - *position).length() <= OPENING_M;
-            known.name == luminaire.name && known.points.last().is_some_and(is_near)
+            // The first of a row lies far from the last of the row before.
+            known.name == luminaire.name && known.points.iter().rev().any(is_near)
         };
         match sources.last_mut().filter(joins) {
             Some(known) => known.points.push(*position),

@@ -16,6 +16,7 @@ use crate::drawing::{Anchor, At, Drawing, Ink, Lettering, Letters, Mark, PAPER, 
 use crate::error::ViewError;
 use field::Field;
 use frame::{Frame, Plane, Window};
+use isolines::Isolines;
 use isolux::scene::{CalculationGrid, Scene};
 use lamps::Lamp;
 use legend::Shown;
@@ -89,21 +90,25 @@ impl Plan<'_> {
             self.points.iter().map(|point| point.illuminance_lx).collect();
         let section = Section::of(self.scene, &plane);
         let barriers = section.barriers(BARRIER * plane.cells_m().into_iter().fold(0.0, f64::max));
-        let field = Field::new(&plane, &values, &barriers).ok_or(ViewError::NothingKnown)?;
         let levels = self.levels();
+        let field = Field::new(&plane, (&values, levels.scale()), &barriers);
         let window = window(&plane, &section);
         let frame = self.frame(window);
         let mut sheet = self.sheet(&frame, &levels)?;
         self.draw_heading(&mut sheet);
         let lamps = lamps::lamps(self.scene, &plane, &window);
-        sheet.add(isolines::bands(&field, &frame, &levels));
+        let lines = field.map(|field| {
+            sheet.add(isolines::bands(&field, &frame, &levels));
+            Isolines::of(&field, &frame, &levels)
+        });
+        lines.iter().for_each(|lines| lines.draw(&mut sheet));
         let (cut, behind) = draw_section(&mut sheet, &section, &frame);
         draw_border(&mut sheet, &plane, &frame);
         let [width, height] = frame.size();
         let mut room = Room::new(frame.corner, [frame.corner[0] + width, frame.corner[1] + height]);
         draw_lamps(&mut sheet, &mut room, &lamps, &frame);
         self.draw_points((&mut sheet, &mut room), (&plane, &frame), &levels);
-        isolines::draw(&mut sheet, &mut room, (&field, &frame), &levels);
+        lines.iter().for_each(|lines| lines.label(&mut sheet, &mut room, &levels));
         name_lamps(&mut sheet, &mut room, &lamps, &frame);
         axes::draw(&mut sheet, &plane, &frame);
         let has = |is_opening: bool| lamps.iter().any(|lamp| lamp.opening.is_some() == is_opening);
