@@ -144,7 +144,8 @@ pub(crate) struct InfoFlags {
   isolux probe builtin:hall --points desk.pts --paths 65536
 
 Points are `x y z nx ny nz`, one a line, in metres and in the axes of the scene as written; # starts a comment. \
-A point on no surface with a known value has empty fields (null in JSON), unless --exact is given.
+A point on no surface with a known value has empty fields (null in JSON), unless --exact is given; 0 is a place in the \
+open that no light reaches.
 
 Of a scene instead of a map, paths are traced at every point: slow, but without the bias of a map and on \
 no surface, too. It leaves out the light that glass, gloss and curved mirrors throw on surfaces (caustics).")]

@@ -126,3 +126,24 @@ fn a_grid_on_a_wall_has_a_plan_as_seen_from_the_room() {
     let off = ["--corner", "0,3.5,0.5", "--u", "4,0,0", "--v", "0,0,2"];
     assert!(drawn(&home, &off).contains("0.5 m before geometry[0]/y_max"));
 }
+
+#[test]
+fn an_opening_filled_with_points_is_one_luminaire() {
+    let home = Home::new();
+    let angles = "0 45 90\n0\n1000 700 0\n";
+    home.file(
+        "strip.ies",
+        format!("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0.3 1.2 0\n1 1 40\n{angles}"),
+    );
+    let scene = "[materials.m]\ndiffuse = 0.5\n\
+        [[geometry]]\nmaterial = \"m\"\nbox = { min = [0, 0, 0], max = [8, 4, 3], inward = true }\n\
+        [[luminaire]]\nname = \"strip\"\nposition = [2, 2, 2.9]\nies = \"strip.ies\"\nextended_m = 0.2\n\
+        array = { count = [2, 1, 1], step = [4, 0, 0] }\n\
+        [[grid]]\nname = \"floor\"\ncorner = [0, 0, 0.1]\nu = [8, 0, 0]\nv = [0, 4, 0]\n";
+    home.file("strips.toml", scene);
+    let ran =
+        home.run(&["solve", "strips.toml", "-o", "map.glb", "--accuracy", "10%", "--no-audit"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let svg = drawn(&home, &[]);
+    assert_eq!(texts(&svg).iter().filter(|text| **text == "strip").count(), 2, "{svg}");
+}

@@ -82,7 +82,12 @@ fn append_text(svg: &mut String, lettering: &Lettering) {
         Letters::Large => 20.0,
     };
     let halo = lettering.halo.map_or(String::new(), |halo| {
-        let halo = colour(halo);
+        let (halo, [[left, top], [right, bottom]]) = (colour(halo), lettering.plate());
+        let (width, height) = (right - left, bottom - top);
+        let _ = writeln!(
+            svg,
+            "<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" rx=\"3\" fill=\"{halo}\"/>"
+        );
         format!(
             " stroke=\"{halo}\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\""
         )

@@ -47,17 +47,24 @@ pub(super) fn lamps(scene: &Scene, plane: &Plane, window: &Window) -> Vec<Lamp> 
 
 fn point_sources(scene: &Scene) -> Vec<Source> {
     let mut sources: Vec<Source> = Vec::new();
+    // Sources by name and by cubes of space, in which their points lie.
+    let mut near: HashMap<(&str, [i64; 3]), Vec<(usize, Point)>> = HashMap::new();
     for luminaire in scene.luminaires() {
         let LuminaireKind::Point { position, .. } = &luminaire.kind else { continue };
-        let joins = |known: &&mut Source| {
-            let is_near = |point: &Point| (*point - *position).length() <= OPENING_M;
-            // The first of a row lies far from the last of the row before.
-            known.name == luminaire.name && known.points.iter().rev().any(is_near)
-        };
-        match sources.last_mut().filter(joins) {
-            Some(known) => known.points.push(*position),
-            None => sources.push(Source { name: luminaire.name.clone(), points: vec![*position] }),
-        }
+        let cube = <[f64; 3]>::from(*position).map(|c| (c / OPENING_M).floor() as i64);
+        let name = body(&luminaire.name);
+        let around = (0..27).map(|k| [k % 3, k / 3 % 3, k / 9]);
+        let joined = around
+            .filter_map(|step| near.get(&(name, [0, 1, 2].map(|k| cube[k] + step[k] - 1))))
+            .flatten()
+            .find(|(_, point)| (*point - *position).length() <= OPENING_M)
+            .map(|(source, _)| *source);
+        let source = joined.unwrap_or_else(|| {
+            sources.push(Source { name: name.to_owned(), points: Vec::new() });
+            sources.len() - 1
+        });
+        sources[source].points.push(*position);
+        near.entry((name, cube)).or_default().push((source, *position));
     }
     sources
 }
@@ -100,6 +107,18 @@ fn area_sources(scene: &Scene) -> Vec<Source> {
         source.points.push(corner);
     }
     sources
+}
+
+/// Points that fill an opening are numbered after a slash: `panel[2]/17`.
+fn body(name: &str) -> &str {
+    match name.rsplit_once('/') {
+        Some((body, number))
+            if !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit()) =>
+        {
+            body
+        }
+        _ => name,
+    }
 }
 
 /// Sides of a box are named after it: what two names have in common before a slash, else the first.
@@ -184,6 +203,12 @@ mod tests {
         let square = vec![[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0]];
         assert_eq!(hull(square), [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
         assert_eq!(hull(vec![[1.0, 1.0]; 3]), [[1.0, 1.0]]);
+    }
+
+    #[test]
+    fn points_of_an_opening_are_named_after_it() {
+        let names = ["panel[2]/17", "panel[2]", "a/b", "a/", "/3"];
+        assert_eq!(names.map(body), ["panel[2]", "panel[2]", "a/b", "a/", ""]);
     }
 
     #[test]
