@@ -202,3 +202,38 @@ fn findings(audit: &Audit) -> String {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_judged_is_not_passed() {
+        let audit = Audit {
+            number: 0,
+            places: 100,
+            unknown_places: 0,
+            paths: 1000,
+            rays: 5000,
+            told: 0.01,
+            error: AuditedError::default(),
+            interpolated: AuditedError::default(),
+            at_least: 0.0,
+            would_find: 0.02,
+            would_find_alike: 0.01,
+            mean_error: 0.0,
+            mean_error_standard_error: 0.001,
+            readings: AuditedReadings::default(),
+            hard_readings: AuditedReadings::default(),
+            untested: 0.0,
+            trust: AuditTrust::default(),
+            contradicts: false,
+            surfaces: Vec::new(),
+            worst: Vec::new(),
+        };
+        let words = checks(&audit).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(words.matches("not judged").count(), 4, "{words}");
+        assert_eq!(words.matches("passed").count(), 2, "{words}");
+        assert!(words.contains("increments"), "{words}");
+    }
+}

@@ -7,15 +7,12 @@ mod radiance;
 use crate::failure::Failure;
 use crate::flags::EyeFlags;
 use crate::shown::names;
-pub(crate) use inside::IsLit;
+pub(crate) use inside::{IsLit, OWN};
 use isolux::geometry::{Point, Vector};
 use isolux::scene::{Camera, Scene, UpAxis};
 use isolux_view::{Projection, View};
 use overview::{Gaze, VERTICAL_FOV_RAD, gaze, overview, up_of};
 use std::path::Path;
-
-/// The name of the view of our own inside a scene.
-pub(crate) const OWN: &str = "inside";
 
 /// The sine of the steepest way from an eye to the middle of the scene that it looks along if it has no target.
 const STEEPEST: f64 = 0.95;

@@ -45,10 +45,16 @@ pub(super) fn lamps(scene: &Scene, plane: &Plane, window: &Window) -> Vec<Lamp> 
     sources.into_iter().filter_map(lamp).collect()
 }
 
+/// A point that belongs to a source, by its number.
+struct Known {
+    source: usize,
+    at: Point,
+}
+
 fn point_sources(scene: &Scene) -> Vec<Source> {
     let mut sources: Vec<Source> = Vec::new();
     // Sources by name and by cubes of space, in which their points lie.
-    let mut near: HashMap<(&str, [i64; 3]), Vec<(usize, Point)>> = HashMap::new();
+    let mut near: HashMap<(&str, [i64; 3]), Vec<Known>> = HashMap::new();
     for luminaire in scene.luminaires() {
         let LuminaireKind::Point { position, .. } = &luminaire.kind else { continue };
         let cube = <[f64; 3]>::from(*position).map(|c| (c / OPENING_M).floor() as i64);
@@ -57,14 +63,14 @@ fn point_sources(scene: &Scene) -> Vec<Source> {
         let joined = around
             .filter_map(|step| near.get(&(name, [0, 1, 2].map(|k| cube[k] + step[k] - 1))))
             .flatten()
-            .find(|(_, point)| (*point - *position).length() <= OPENING_M)
-            .map(|(source, _)| *source);
+            .find(|known| (known.at - *position).length() <= OPENING_M)
+            .map(|known| known.source);
         let source = joined.unwrap_or_else(|| {
             sources.push(Source { name: name.to_owned(), points: Vec::new() });
             sources.len() - 1
         });
         sources[source].points.push(*position);
-        near.entry((name, cube)).or_default().push((source, *position));
+        near.entry((name, cube)).or_default().push(Known { source, at: *position });
     }
     sources
 }
