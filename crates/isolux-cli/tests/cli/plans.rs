@@ -122,9 +122,9 @@ fn a_grid_on_a_wall_has_a_plan_as_seen_from_the_room() {
     assert!(texts.contains(&"cut by this plane"), "{texts:?}");
     assert!(!texts.iter().any(|text| text.contains("height")), "{texts:?}");
     let about = texts.iter().find(|text| text.starts_with("Grid: grid")).unwrap();
-    assert!(about.contains("on geometry[0]/y_max"), "{about}");
+    assert!(about.contains("on box 1/y_max"), "{about}");
     let off = ["--corner", "0,3.5,0.5", "--u", "4,0,0", "--v", "0,0,2"];
-    assert!(drawn(&home, &off).contains("0.5 m before geometry[0]/y_max"));
+    assert!(drawn(&home, &off).contains("0.5 m before box 1/y_max"));
 }
 
 #[test]
