@@ -123,47 +123,52 @@ const fn verdict(audit: &Audit) -> &'static str {
 /// What may be believed and why, one line each.
 pub(crate) fn checks(audit: &Audit) -> String {
     let AuditTrust { variance_of_variance, tail_index, trend } = audit.trust;
-    let row = |what: &str, value: String, asked: String, passes: bool| {
-        vec![what.to_owned(), value, asked, if passes { "passed" } else { "not passed" }.to_owned()]
+    let row = |what: &str, (value, asked): (String, String), passes: Result<bool, &str>| {
+        let result = match passes {
+            Ok(true) => "passed".to_owned(),
+            Ok(false) => "not passed".to_owned(),
+            Err(why) => format!("not judged: {why}"),
+        };
+        vec![what.to_owned(), value, asked, result]
     };
-    let ratio =
-        |of: &AuditedReadings| of.true_over_told.map_or("-".to_owned(), |r| significant(r, 2));
+    let figure = |of: Option<f64>| of.map_or("-".to_owned(), |value| significant(value, 2));
+    let is_told = |of: &AuditedReadings| match of.true_over_told {
+        Some(_) => Ok(of.at_least <= Audit::MOST_UNTOLD),
+        None => Err("no error is reported there"),
+    };
     let rows = [
         row(
             "error of the scene, beyond doubt",
-            show_share(audit.at_least),
-            format!("at most {}", show_share(audit.told)),
-            !audit.contradicts,
+            (show_share(audit.at_least), format!("at most {}", show_share(audit.told))),
+            Ok(!audit.contradicts),
         ),
         row(
             "true over reported error",
-            ratio(&audit.readings),
-            "not surely > 1.5".to_owned(),
-            audit.readings.at_least <= Audit::MOST_UNTOLD,
+            (figure(audit.readings.true_over_told), "not surely > 1.5".to_owned()),
+            is_told(&audit.readings),
         ),
         row(
             "the same where trouble is likely",
-            ratio(&audit.hard_readings),
-            "not surely > 1.5".to_owned(),
-            audit.hard_readings.at_least <= Audit::MOST_UNTOLD,
+            (figure(audit.hard_readings.true_over_told), "not surely > 1.5".to_owned()),
+            is_told(&audit.hard_readings),
         ),
         row(
             "variance of the variance",
-            significant(variance_of_variance, 2),
-            format!("at most {}", AuditTrust::MOST_VARIANCE),
-            variance_of_variance <= AuditTrust::MOST_VARIANCE,
+            (
+                significant(variance_of_variance, 2),
+                format!("at most {}", AuditTrust::MOST_VARIANCE),
+            ),
+            Ok(variance_of_variance <= AuditTrust::MOST_VARIANCE),
         ),
         row(
             "tail of the brightest paths",
-            tail_index.map_or("none".to_owned(), |index| significant(index, 2)),
-            format!("at least {}", AuditTrust::LEAST_INDEX),
-            tail_index.is_none_or(|index| index >= AuditTrust::LEAST_INDEX),
+            (figure(tail_index), format!("at least {}", AuditTrust::LEAST_INDEX)),
+            tail_index.map(|index| index >= AuditTrust::LEAST_INDEX).ok_or("too few, or all alike"),
         ),
         row(
             "power that noise falls with",
-            trend.map_or("too few increments".to_owned(), |power| significant(power, 2)),
-            format!("at most {}", AuditTrust::MOST_TREND),
-            trend.is_none_or(|power| power <= AuditTrust::MOST_TREND),
+            (figure(trend), format!("at most {}", AuditTrust::MOST_TREND)),
+            trend.map(|power| power <= AuditTrust::MOST_TREND).ok_or("too few increments"),
         ),
     ];
     table(&["check", "value", "asked", "result"], &rows)
@@ -196,4 +201,39 @@ fn findings(audit: &Audit) -> String {
         found += &format!("\n{}", table(&["wrong places", "at", "map, lx", "paths, lx"], &rows));
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_judged_is_not_passed() {
+        let audit = Audit {
+            number: 0,
+            places: 100,
+            unknown_places: 0,
+            paths: 1000,
+            rays: 5000,
+            told: 0.01,
+            error: AuditedError::default(),
+            interpolated: AuditedError::default(),
+            at_least: 0.0,
+            would_find: 0.02,
+            would_find_alike: 0.01,
+            mean_error: 0.0,
+            mean_error_standard_error: 0.001,
+            readings: AuditedReadings::default(),
+            hard_readings: AuditedReadings::default(),
+            untested: 0.0,
+            trust: AuditTrust::default(),
+            contradicts: false,
+            surfaces: Vec::new(),
+            worst: Vec::new(),
+        };
+        let words = checks(&audit).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(words.matches("not judged").count(), 4, "{words}");
+        assert_eq!(words.matches("passed").count(), 2, "{words}");
+        assert!(words.contains("increments"), "{words}");
+    }
 }

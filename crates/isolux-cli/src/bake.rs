@@ -31,11 +31,11 @@ pub(crate) fn run(flags: &BakeFlags, json: bool) -> Result<Outcome, Failure> {
     if !KINDS.contains(&extension.as_str()) {
         return Err(kind());
     }
+    let output = OutputPath::check(&flags.output, &extension)?;
     let folder = map_folder(&flags.output)?;
     let path = folder.path().join("map.glb");
     let export = export_of(flags, path.clone());
     let wanted = Wanted::of(&export)?.ok_or_else(kind)?;
-    let output = OutputPath::check(&flags.output, &extension)?;
     output.differs_from(&flags.scene)?;
     output.replaces_exports_alone()?;
     let scene = source::read_scene(&flags.scene)?;

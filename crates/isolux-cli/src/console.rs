@@ -1,13 +1,18 @@
 //! What is printed on standard output: results.
 
 use crate::failure::Failure;
-use crate::shown::{cut, plain};
+use crate::shown::{cut, json_text, lines, plain};
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle, presets};
 use serde::Serialize;
 use std::io::Write;
 
-/// Prints text to standard output.
+/// Prints lines to standard output, each of them plain: they may hold names from files.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    print_raw(&lines(text))
+}
+
+/// Prints text of our own to standard output, as it is.
+pub(crate) fn print_raw(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     written.map_err(unprintable)
@@ -23,9 +28,27 @@ fn unprintable(error: std::io::Error) -> Failure {
 /// Prints one JSON value and a line end to standard output, as it is made: there may be millions
 /// of readings.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
-    let mut out = std::io::BufWriter::new(std::io::stdout().lock());
+    let mut out = Plainly(std::io::BufWriter::new(std::io::stdout().lock()));
     let made = serde_json::to_writer_pretty(&mut out, value).map_err(std::io::Error::from);
     made.and_then(|()| writeln!(out)).and_then(|()| out.flush()).map_err(unprintable)
+}
+
+/// A sink of JSON, of which nothing acts on a terminal.
+struct Plainly<W>(W);
+
+impl<W: Write> Write for Plainly<W> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        // A serializer writes no part of a character alone.
+        match std::str::from_utf8(bytes) {
+            Ok(text) => self.0.write_all(json_text(text).as_bytes())?,
+            Err(_) => self.0.write_all(bytes)?,
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.0.flush()
+    }
 }
 
 /// One line, under the header.
@@ -240,6 +263,16 @@ mod tests {
         assert_eq!(text.lines().count(), 3, "{text}");
         let whole: Vec<&str> = text.split_whitespace().collect();
         assert!(whole.join(" ").contains(value), "{text}");
+    }
+
+    #[test]
+    fn json_is_the_same_and_acts_on_no_terminal() {
+        let name = "a\u{1b}\u{202e}\u{9b}\u{7f} \u{fc}\n";
+        let mut out = Plainly(Vec::new());
+        serde_json::to_writer_pretty(&mut out, &[name]).unwrap();
+        let text = String::from_utf8(out.0).unwrap();
+        assert_eq!(text, "[\n  \"a\\u001b\\u202e\\u009b\\u007f \u{fc}\\n\"\n]");
+        assert_eq!(serde_json::from_str::<Vec<String>>(&text).unwrap(), [name]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use crate::notes::Note;
 use crate::trouble::Trouble;
 use std::fmt::Display;
+use std::path::Path;
 
 /// A run that has a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +35,11 @@ impl Failure {
     /// One problem of the input.
     pub(crate) fn bad_input(problem: impl Display) -> Self {
         Self::bad_inputs([problem])
+    }
+
+    /// One problem of a file.
+    pub(crate) fn of_file(file: &Path, problem: impl Display) -> Self {
+        Self::BadInput(vec![Trouble::about(file, problem)])
     }
 
     /// Several problems of the input, or one in several lines.

@@ -144,7 +144,8 @@ pub(crate) struct InfoFlags {
   isolux probe builtin:hall --points desk.pts --paths 65536
 
 Points are `x y z nx ny nz`, one a line, in metres and in the axes of the scene as written; # starts a comment. \
-A point on no surface with a known value has empty fields (null in JSON), unless --exact is given.
+A point on no surface with a known value has empty fields (null in JSON), unless --exact is given; 0 is a place in the \
+open that no light reaches.
 
 Of a scene instead of a map, paths are traced at every point: slow, but without the bias of a map and on \
 no surface, too. It leaves out the light that glass, gloss and curved mirrors throw on surfaces (caustics).")]
@@ -225,17 +226,17 @@ pub(crate) struct GridFlags {
     #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "u", requires = "v")]
     pub corner: Option<[f64; 3]>,
     /// One side of it
-    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "corner")]
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::side_m, allow_hyphen_values = true, requires = "corner")]
     pub u: Option<[f64; 3]>,
     /// The other side, at right angles
-    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "corner")]
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::side_m, allow_hyphen_values = true, requires = "corner")]
     pub v: Option<[f64; 3]>,
     /// Distance of points, m [default: that of EN 12464-1]
-    #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true)]
+    #[arg(long, value_name = "M", value_parser = quantity::spacing_m, allow_hyphen_values = true)]
     pub spacing: Option<f64>,
     /// Width of the band along the sides that is left out, m [default: with --height half a metre or 15 % of the
     /// shorter side, whichever is less; else none]
-    #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true)]
+    #[arg(long, value_name = "M", value_parser = quantity::border_m, allow_hyphen_values = true)]
     pub border: Option<f64>,
     /// The share of the initial light that is left when maintained: 0.8 or 80%; 1 is all of it [default: the grid's, else 1]
     #[arg(long, value_name = "SHARE", value_parser = quantity::maintenance_factor, allow_hyphen_values = true)]

@@ -58,7 +58,7 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     let reader = MapReader::new(&scene, &map);
     let light = Maintained::of(&scene);
     let results: Vec<GridResult> =
-        grids.into_iter().map(|grid| GridResult::of(grid, &reader)).collect();
+        grids.into_iter().map(|grid| GridResult::of(grid, (&scene, &reader))).collect();
     for GridResult { read, in_space, outside } in &results {
         warnings::warn(
             &read.grid.name,

@@ -1,9 +1,11 @@
 //! What a map says at the points of a calculation grid.
 
+use crate::beside;
+use crate::unlit::{is_dark, known_dark};
 use isolux::engine::{MapReader, ProbePoint};
 use isolux::geometry::{Normal, Point};
 use isolux::map::{GridFigures, Illuminance};
-use isolux::scene::CalculationGrid;
+use isolux::scene::{CalculationGrid, Scene};
 use rayon::prelude::*;
 
 /// A grid with its values.
@@ -24,11 +26,21 @@ pub(crate) struct GridValues {
 }
 
 impl GridValues {
-    /// Reads a map; `None` of a grid that has no area.
-    pub(crate) fn of(grid: CalculationGrid, reader: &MapReader<'_>) -> Option<Self> {
+    /// Reads a map; `None` of a grid that has no area. Points inside of things have no value.
+    pub(crate) fn of(
+        grid: CalculationGrid,
+        (scene, reader): (&Scene, &MapReader<'_>),
+    ) -> Option<Self> {
         let (normal, points) = (grid.normal()?, grid.points());
-        let read = |&position: &Point| reader.measure(ProbePoint { position, normal });
-        let mut values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
+        let all = |read: &(dyn Fn(ProbePoint) -> Option<Illuminance> + Sync)| {
+            let read =
+                |&position: &Point| beside::read(scene, ProbePoint { position, normal }, read);
+            points.par_iter().map(read).collect::<Vec<_>>()
+        };
+        let mut values = all(&|at| reader.measure(at));
+        if values.iter().all(Option::is_none) {
+            values = all(&|at| known_dark((scene, reader), at));
+        }
         let are_outside = are_outside((&points, &values), normal, reader);
         for (value, is_outside) in values.iter_mut().zip(&are_outside) {
             *value = value.filter(|_| !is_outside);
@@ -50,13 +62,12 @@ fn are_outside(
     normal: Normal,
     reader: &MapReader<'_>,
 ) -> Vec<bool> {
-    let is_dark = |value: &Option<Illuminance>| value.is_some_and(|v| v.illuminance_lx() == 0.0);
-    if values.iter().flatten().all(|value| value.illuminance_lx() == 0.0) {
+    if values.iter().flatten().all(is_dark) {
         return vec![false; points.len()];
     }
     let all = points.par_iter().zip(values);
     all.map(|(&position, value)| {
-        is_dark(value) && !reader.sees_lit(ProbePoint { position, normal })
+        value.as_ref().is_some_and(is_dark) && !reader.sees_lit(ProbePoint { position, normal })
     })
     .collect()
 }

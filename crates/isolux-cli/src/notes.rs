@@ -1,6 +1,6 @@
 //! What is printed on standard error: everything but results.
 
-use crate::shown::sentence;
+use crate::shown::{json_text, sentence};
 use anstyle::{AnsiColor, Style};
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -56,7 +56,7 @@ impl Note {
     fn line(self, text: &str, as_json: bool) -> String {
         let style = self.style();
         match (as_json, self) {
-            (true, _) => serde_json::json!({ self.name(): text }).to_string(),
+            (true, _) => json_text(&serde_json::json!({ self.name(): text }).to_string()).into(),
             (false, Self::Info) => sentence(text),
             (false, _) => format!("{style}{}:{style:#} {}", self.name(), sentence(text)),
         }
@@ -69,9 +69,9 @@ pub(crate) fn note(kind: Note, text: impl std::fmt::Display) {
     let _ = writeln!(anstream::stderr(), "{}", kind.line(&text.to_string(), are_json()));
 }
 
-/// Prints a line to standard error as it is. Nobody may be there to read it.
+/// Prints a line of JSON to standard error. Nobody may be there to read it.
 pub(crate) fn line(line: impl std::fmt::Display) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", json_text(&line.to_string()));
 }
 
 #[cfg(test)]

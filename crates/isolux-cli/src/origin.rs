@@ -7,6 +7,7 @@
 //! 9 km from the origin, and wrong by a seventh at 10 km.
 
 use crate::quantity::significant;
+use isolux::geometry::Point;
 use isolux::scene::Scene;
 use isolux_formats::Problem;
 use std::path::Path;
@@ -43,6 +44,12 @@ impl Extent {
         let (low_m, high_m) =
             bounds.map_or_else(Default::default, |(low, high)| (low.into(), high.into()));
         Self { low_m, high_m }
+    }
+
+    /// Whether a point lies in it.
+    pub(crate) fn holds(&self, point: Point) -> bool {
+        let at_m = <[f64; 3]>::from(point);
+        (0..3).all(|k| (self.low_m[k]..=self.high_m[k]).contains(&at_m[k]))
     }
 
     /// Its sides.

@@ -6,7 +6,8 @@ use crate::flags::ProbeFlags;
 use crate::maintained::Maintained;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
-use crate::{map_file, points, source};
+use crate::unlit::{known_dark, without_unknown};
+use crate::{beside, map_file, points, source};
 use isolux::engine::{ExactSettings, MapReader, PathTracer, ProbePoint};
 use isolux::map::Illuminance;
 use isolux_formats::rad::irradiance_lines;
@@ -18,6 +19,14 @@ use std::fmt::Write;
 /// One a point, in the order asked; `None` where it is not known.
 type Values = Vec<Option<Illuminance>>;
 
+/// What is found at points.
+struct Found {
+    values: Values,
+    /// How much of each is ambient light.
+    ambient_lx: f64,
+    light: Maintained,
+}
+
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
     let output = flags.output.as_deref().map(|path| OutputPath::check(path, "res")).transpose()?;
@@ -26,20 +35,11 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
         output.differs_from(&flags.points)?;
     }
     let points = points::read(&flags.points)?;
-    let (values, ambient_lx, light) = if map_file::is_map(&flags.source) {
+    let Found { values, ambient_lx, light } = if map_file::is_map(&flags.source) {
         read_map(flags, &points)?
     } else {
-        let (values, light) = trace_paths(flags, &points)?;
-        (values, 0.0, light)
+        trace_paths(flags, &points)?
     };
-    let unknown = values.iter().filter(|v| v.is_none()).count();
-    if unknown > 0 {
-        let text = format!(
-            "{unknown} of {} on no surface with a known value; move points onto a lit one, or use --exact",
-            counted(points.len(), "point lies", "points lie")
-        );
-        note(Note::Warning, text);
-    }
     if let Some(output) = &output {
         write_irradiances(output, &values)?;
     }
@@ -66,7 +66,7 @@ fn write_irradiances(output: &OutputPath, values: &Values) -> Result<(), Failure
     if known.len() < values.len() {
         return Err(Failure::bad_input(format!(
             "{}: {} no value, which lines of irradiance cannot say; use --exact, move points onto a \
-             surface, or ask for the table",
+             surface of the scene, or ask for the table",
             output.path().display(),
             counted(values.len() - known.len(), "point has", "points have")
         )));
@@ -74,11 +74,7 @@ fn write_irradiances(output: &OutputPath, values: &Values) -> Result<(), Failure
     output.write(irradiance_lines(known.iter().map(Illuminance::total_lx)).as_bytes())
 }
 
-/// The values, how much of each is ambient light, and whether they are maintained.
-fn read_map(
-    flags: &ProbeFlags,
-    points: &[ProbePoint],
-) -> Result<(Values, f64, Maintained), Failure> {
+fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Found, Failure> {
     let unused = [("--paths", flags.paths.is_some()), ("--seed", flags.seed.is_some())];
     refuse(flags, &unused, "a map, whose points are not traced; leave it out or give a scene")?;
     let (scene, map) = map_file::read(&flags.source)?;
@@ -86,20 +82,38 @@ fn read_map(
         map_file::warn_of_unknown_error(&flags.source, &map);
     }
     let reader = MapReader::new(&scene, &map);
-    let read = |at: &ProbePoint| {
-        if flags.exact {
-            Some(reader.estimate(*at, &ExactSettings::default()))
-        } else if flags.interpolated {
-            reader.interpolated(*at)
-        } else {
-            reader.probe(*at)
-        }
+    let exactly = |at| Some(reader.estimate(at, &ExactSettings::default()));
+    let dark = |at| {
+        let is_on_surface = reader.is_on_surface(at);
+        is_on_surface.then(|| known_dark((&scene, &reader), at)).flatten()
     };
-    let values = points.par_iter().map(read).collect();
-    Ok((values, map.ambient_lx().luminance(), Maintained::of(&scene)))
+    let read = |at: &ProbePoint| match (flags.exact, flags.interpolated) {
+        (true, _) => beside::read(&scene, *at, exactly),
+        (_, true) => reader.interpolated(*at),
+        _ => reader.probe(*at).or_else(|| dark(*at)),
+    };
+    let mut values: Values = points.par_iter().map(read).collect();
+    if flags.exact {
+        values = without_unknown(&scene, points, values);
+    } else {
+        tell_of_unknown(&values);
+    }
+    let (ambient_lx, light) = (map.ambient_lx().luminance(), Maintained::of(&scene));
+    Ok(Found { values, ambient_lx, light })
 }
 
-fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<(Values, Maintained), Failure> {
+fn tell_of_unknown(values: &Values) {
+    let unknown = values.iter().filter(|value| value.is_none()).count();
+    if unknown > 0 {
+        let text = format!(
+            "{unknown} of {} on no surface with a known value; move points onto a lit one, or use --exact",
+            counted(values.len(), "point lies", "points lie")
+        );
+        note(Note::Warning, text);
+    }
+}
+
+fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Found, Failure> {
     let unused = [("--exact", flags.exact), ("--interpolated", flags.interpolated)];
     refuse(flags, &unused, "a scene, which has no map to read; leave it out or give a map")?;
     let scene = source::read_scene(&flags.source)?;
@@ -115,8 +129,10 @@ fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<(Values, Mai
         );
     }
     let settings = settings(flags);
-    let values = points.par_iter().map(|at| Some(tracer.estimate(*at, &settings))).collect();
-    Ok((values, Maintained::of(&scene)))
+    let trace = |at| Some(tracer.estimate(at, &settings));
+    let traced = points.par_iter().map(|at| beside::read(&scene, *at, trace)).collect();
+    let values = without_unknown(&scene, points, traced);
+    Ok(Found { values, ambient_lx: 0.0, light: Maintained::of(&scene) })
 }
 
 /// Flags that the source has no use for are mistakes.

@@ -1,6 +1,7 @@
 //! Quantities as people write them on a command line.
 
 pub(crate) use isolux_formats::significant;
+use isolux_view::TraceSettings;
 use std::fmt::Display;
 use std::str::FromStr;
 use std::time::Duration;
@@ -130,7 +131,7 @@ fn scaled(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     value.is_finite().then_some(value * scale)
 }
 
-/// The largest side of a picture: 16 384 squared is a gigabyte of pixels already.
+/// The longest side of a picture, pixels.
 const MAX_SIDE: u32 = 16_384;
 
 /// A length in metres: `0.75`.
@@ -138,6 +139,31 @@ pub(crate) fn metres(text: &str) -> Result<f64, String> {
     let found = text.trim().trim_end_matches('m').trim().parse::<f64>();
     let metres = found.map_err(|_| "is no length; write metres, as 0.75".to_owned())?;
     if metres.is_finite() { Ok(metres) } else { Err("is not finite; write metres, as 0.75".into()) }
+}
+
+/// The width of a band in metres, which may be none.
+pub(crate) fn border_m(text: &str) -> Result<f64, String> {
+    metres(text).and_then(|m| {
+        if m >= 0.0 { Ok(m) } else { Err("is less than 0; write metres, as 0.5".into()) }
+    })
+}
+
+/// A distance in metres, above zero.
+pub(crate) fn spacing_m(text: &str) -> Result<f64, String> {
+    metres(text).and_then(|m| {
+        if m > 0.0 { Ok(m) } else { Err("is not above zero; write metres, as 0.25".into()) }
+    })
+}
+
+/// A side of an area, which has a length.
+pub(crate) fn side_m(text: &str) -> Result<[f64; 3], String> {
+    let side = triple(text)?;
+    match side.iter().any(|m| *m != 0.0) {
+        true => Ok(side),
+        false => {
+            Err("has no length; write how far the side goes along x,y,z in metres, as 2,0,0".into())
+        }
+    }
 }
 
 /// A density in texels a metre: `20`.
@@ -158,12 +184,13 @@ pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
 
 /// Width, depth and height of a room, m.
 pub(crate) fn room_m(text: &str) -> Result<[f64; 3], String> {
-    let side = |side: &str| side.trim().parse::<f64>().ok().filter(|m| (1.0..=200.0).contains(m));
-    let sides: Option<Vec<f64>> = text.split('x').map(side).collect();
+    let sides: Option<Vec<f64>> = text.split('x').map(|side| side.trim().parse().ok()).collect();
     let sides = sides.and_then(|sides| <[f64; 3]>::try_from(sides).ok());
-    sides.ok_or_else(|| {
-        "is no room; write WIDTHxDEPTHxHEIGHT in metres as 6x5x2.8, each from 1 to 200".to_owned()
-    })
+    let sides = sides.ok_or("is no room; write WIDTHxDEPTHxHEIGHT in metres, as 6x5x2.8")?;
+    match sides.iter().find(|m| !(1.0..=200.0).contains(*m)) {
+        Some(side) => Err(format!("has a side of {side} m; sides are from 1 to 200 m long")),
+        None => Ok(sides),
+    }
 }
 
 /// An opening angle in degrees.
@@ -181,12 +208,24 @@ pub(crate) fn coordinate(text: &str) -> Result<f64, String> {
 
 /// The size of a picture as `1280x720`.
 pub(crate) fn pixels(text: &str) -> Result<(u32, u32), String> {
-    let side = |side: &str| {
-        side.trim().parse::<u32>().ok().filter(|pixels| (1..=MAX_SIDE).contains(pixels))
-    };
-    text.split_once('x')
+    let side = |side: &str| side.trim().parse::<u32>().ok();
+    let (width, height) = text
+        .split_once('x')
         .and_then(|(width, height)| Some((side(width)?, side(height)?)))
-        .ok_or_else(|| format!("write WIDTHxHEIGHT as 1280x720, each from 1 to {MAX_SIDE}"))
+        .ok_or("is no size; write WIDTHxHEIGHT in pixels, as 1280x720")?;
+    let most = TraceSettings::FINE.most_pixels();
+    if [width, height].iter().any(|side| !(1..=MAX_SIDE).contains(side)) {
+        return Err(format!("each side has from 1 to {MAX_SIDE} pixels; write 1280x720, say"));
+    }
+    match u64::from(width) * u64::from(height) {
+        pixels if pixels > most => {
+            let [pixels, most] = [pixels, most].map(|count| significant(count as f64 / 1e6, 3));
+            Err(format!(
+                "has {pixels} million pixels, and at most {most} million are drawn; write less"
+            ))
+        }
+        _ => Ok((width, height)),
+    }
 }
 
 /// A range as `0:500`.
@@ -333,6 +372,28 @@ mod tests {
     }
 
     #[test]
+    fn grids_have_lengths() {
+        assert_eq!(
+            (border_m("0"), spacing_m("0.25"), side_m("0,-2,0")),
+            (Ok(0.0), Ok(0.25), Ok([0.0, -2.0, 0.0]))
+        );
+        assert!(border_m("-1").is_err() && spacing_m("0").is_err() && spacing_m("-1").is_err());
+        assert!(side_m("0,0,0").unwrap_err().contains("no length"));
+    }
+
+    #[test]
+    fn rooms_have_sides_of_a_length() {
+        assert_eq!(room_m("6x5x2.8"), Ok([6.0, 5.0, 2.8]));
+        assert_eq!(
+            room_m("6x500x2.8").unwrap_err(),
+            "has a side of 500 m; sides are from 1 to 200 m long"
+        );
+        for text in ["", "6x5", "6x5x", "6x5xNaN", "0x5x3", "6x5x-3"] {
+            assert!(room_m(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
     fn densities() {
         assert_eq!((density("20"), density(" 0.5 ")), (Ok(20.0), Ok(0.5)));
         for text in ["", "0", "-1", "NaN", "inf", "x", "5cm"] {
@@ -343,7 +404,7 @@ mod tests {
     #[test]
     fn pictures_and_ranges() {
         assert_eq!(pixels("1280x720"), Ok((1280, 720)));
-        for text in ["", "x", "0x1", "1x0", "1280", "99999x1", "1x-1", "1x1x1"] {
+        for text in ["", "x", "0x1", "1x0", "1280", "99999x1", "1x-1", "1x1x1", "16384x16384"] {
             assert!(pixels(text).is_err(), "{text}");
         }
         assert_eq!(range("0:500"), Ok((0.0, 500.0)));

@@ -1,6 +1,6 @@
 //! `isolux completions` and `isolux man`: help for shells and manual pages.
 
-use crate::console::{print, print_json};
+use crate::console::{print, print_json, print_raw};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{CompletionsFlags, Flags, ManFlags};
 use crate::output::create_folder;
@@ -17,7 +17,7 @@ pub(crate) fn completions(flags: &CompletionsFlags, json: bool) -> Result<Outcom
     if json {
         print_json(&serde_json::json!({ "shell": flags.shell.to_string(), "script": script }))?;
     } else {
-        print(&script)?;
+        print_raw(&script)?;
     }
     Ok(Outcome::Done)
 }

@@ -1,5 +1,5 @@
 //! Text from files as a terminal may be given it: without control characters, names of a length that can be read. JSON
-//! holds them as they are.
+//! holds them as they are, with what would act on a terminal as escapes.
 
 use std::borrow::Cow;
 
@@ -8,13 +8,38 @@ const MOST_OF_NAME: usize = 60;
 /// Longest name, or path, between backticks in a sentence.
 const MOST_OF_QUOTE: usize = 200;
 
-/// With control characters as escapes: `\n`, `\u{1b}`.
+/// Whether a character acts on a terminal instead of being seen: a control character, one that turns the direction of what follows
+/// (Unicode's property Bidi_Control), or an end of a line or a paragraph.
+fn acts(c: char) -> bool {
+    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    c.is_control() || turns || matches!(c, '\u{2028}' | '\u{2029}')
+}
+
+/// With characters that act on a terminal as escapes: `\n`, `\u{1b}`, `\u{202e}`.
 pub(crate) fn plain(text: &str) -> Cow<'_, str> {
-    if !text.contains(char::is_control) {
+    if !text.contains(acts) {
         return Cow::Borrowed(text);
     }
-    let escaped = |c: char| match c.is_control() {
+    let escaped = |c: char| match acts(c) {
         true => c.escape_default().collect(),
+        false => c.to_string(),
+    };
+    Cow::Owned(text.chars().map(escaped).collect())
+}
+
+/// Lines, each of them plain.
+pub(crate) fn lines(text: &str) -> String {
+    text.split('\n').map(plain).collect::<Vec<_>>().join("\n")
+}
+
+/// Written JSON with escapes for what acts on a terminal: what is read of it is the same. Below U+0020 its strings hold escapes already.
+pub(crate) fn json_text(text: &str) -> Cow<'_, str> {
+    let acts = |c: char| c > '\u{1f}' && acts(c);
+    if !text.contains(acts) {
+        return Cow::Borrowed(text);
+    }
+    let escaped = |c: char| match acts(c) {
+        true => format!("\\u{:04x}", u32::from(c)),
         false => c.to_string(),
     };
     Cow::Owned(text.chars().map(escaped).collect())
@@ -61,6 +86,8 @@ mod tests {
         assert_eq!(name(&"é".repeat(60)), "é".repeat(60));
         assert_eq!(name("\u{1b}[31mred\n"), "\\u{1b}[31mred\\n");
         assert_eq!(names(["a", "b\t"]), "a, b\\t");
+        assert_eq!(name("lamp\u{202e}gpj.\u{2066}"), "lamp\\u{202e}gpj.\\u{2066}");
+        assert_eq!(lines("a\u{1b}\n\tb\u{85}\n"), "a\\u{1b}\n\\tb\\u{85}\n");
     }
 
     #[test]

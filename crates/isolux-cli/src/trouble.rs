@@ -4,6 +4,7 @@ use crate::shown::plain;
 use isolux_formats::Problem;
 use serde::Serialize;
 use std::fmt::Display;
+use std::path::Path;
 
 /// One problem.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -36,6 +37,12 @@ impl Trouble {
     pub(crate) fn in_words(words: impl Display) -> Self {
         let arguments: Vec<String> = std::env::args().skip(1).collect();
         Self::among(&words.to_string(), |file| arguments.iter().any(|word| word == file))
+    }
+
+    /// The same of a file that may be no argument of its own.
+    pub(crate) fn about(file: &Path, words: impl Display) -> Self {
+        let file = file.display().to_string();
+        Self::among(&format!("{file}: {words}"), |known| known == file)
     }
 
     fn among(message: &str, is_file: impl Fn(&str) -> bool) -> Self {
@@ -77,7 +84,6 @@ pub(crate) fn json(troubles: &[Trouble], exit_code: u8) -> serde_json::Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::Path;
 
     #[test]
     fn words_are_taken_apart() {

@@ -5,9 +5,9 @@ use isolux::geometry::{Normal, Point};
 use isolux::units::Rgb;
 
 /// Pixels in one picture at most: 8K.
-const MAX_PIXELS: u64 = 1 << 25;
+pub(crate) const MAX_PIXELS: u64 = 1 << 25;
 /// Samples in one view at most (28 bytes each).
-const MAX_SAMPLES: u64 = 1 << 27;
+pub(crate) const MAX_SAMPLES: u64 = 1 << 27;
 
 /// Width and height of a picture, neither of them zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

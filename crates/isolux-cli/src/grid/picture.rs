@@ -9,9 +9,11 @@ use crate::quantity::significant;
 use crate::render;
 use crate::rounded::to_error;
 use crate::shown::name;
+use isolux::geometry::{Point, Ray};
 use isolux::scene::{Scene, UpAxis};
 use isolux_formats::counted;
 use isolux_view::{Plan, PlanPoint};
+use std::collections::BTreeMap;
 
 /// Draws a grid, as pixels or as SVG by the end of the name.
 pub(super) fn write(
@@ -44,7 +46,10 @@ fn heading(scene: &Scene, result: &GridResult) -> (String, Vec<String>) {
     let grid = &result.read.grid;
     let title = if scene.name().is_empty() { grid.name.as_str() } else { scene.name() };
     let mut about = vec![format!("Grid: {}", name(&grid.name))];
-    about.extend(height_m(scene, result).map(|m| format!("height {} m", short(m))));
+    about.extend(match height_m(scene, result) {
+        Some(m) => Some(format!("height {} m", short(m))),
+        None => before(scene, result),
+    });
     let counts = grid.counts();
     about.push(format!("{} x {} points", counts[0], counts[1]));
     about.push(match grid.maintenance_factor {
@@ -62,6 +67,9 @@ fn heading(scene: &Scene, result: &GridResult) -> (String, Vec<String>) {
             all.map(|(name, figure)| format!("{name} {}", figures::ratio(figure))).join("   "),
         );
     }
+    if result.read.figures.is_none() {
+        lines.push("no value is known at any of its points".to_owned());
+    }
     let outside = result.outside.count();
     if outside > 0 {
         let points = counted(outside, "point", "points");
@@ -76,9 +84,31 @@ fn short(m: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// The surface that most points of a grid stand before, and how far: the wall that it shows.
+fn before(scene: &Scene, result: &GridResult) -> Option<String> {
+    /// A surface is looked for from so far before the points, m; what is so close to them is at them.
+    const AT_M: f64 = 1e-3;
+    let normal = result.read.normal.to_vector();
+    let back = (-normal).direction()?;
+    let hit = |&point: &Point| scene.bvh().closest_hit(&Ray::new(point + normal * AT_M, back));
+    let mut far_m: BTreeMap<u32, Vec<f64>> = BTreeMap::new();
+    for hit in result.read.points.iter().filter_map(hit) {
+        far_m.entry(scene.shape_of(hit.triangle)).or_default().push(f64::from(hit.t) - AT_M);
+    }
+    let (shape, far_m) = far_m.into_iter().max_by_key(|(_, far_m)| far_m.len())?;
+    let shape = name(scene.shape_names().get(shape as usize)?);
+    let nearest_m = far_m.iter().copied().fold(f64::INFINITY, f64::min);
+    let farthest_m = far_m.iter().copied().fold(0.0, f64::max);
+    Some(match () {
+        () if farthest_m < AT_M => format!("on {shape}"),
+        () if farthest_m - nearest_m < AT_M => format!("{} m before {shape}", short(nearest_m)),
+        () => format!("before {shape}"),
+    })
+}
+
 /// Above the origin of the scene, of a level grid.
 fn height_m(scene: &Scene, result: &GridResult) -> Option<f64> {
-    let height = |point: &isolux::geometry::Point| match scene.up() {
+    let height = |point: &Point| match scene.up() {
         UpAxis::Y => point.y,
         UpAxis::Z => point.z,
     };

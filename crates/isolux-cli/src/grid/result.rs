@@ -4,7 +4,7 @@ use super::warnings::Outside;
 use crate::grid_values::GridValues;
 use isolux::engine::{MapReader, ProbePoint};
 use isolux::geometry::Point;
-use isolux::scene::CalculationGrid;
+use isolux::scene::{CalculationGrid, Scene};
 
 /// A grid with its values, and what its figures do not say.
 pub(super) struct GridResult {
@@ -15,8 +15,9 @@ pub(super) struct GridResult {
 }
 
 impl GridResult {
-    pub(super) fn of(grid: CalculationGrid, reader: &MapReader) -> Self {
-        let read = GridValues::of(grid, reader).expect("a grid without problems has a normal");
+    pub(super) fn of(grid: CalculationGrid, (scene, reader): (&Scene, &MapReader)) -> Self {
+        let read =
+            GridValues::of(grid, (scene, reader)).expect("a grid without problems has a normal");
         let on_surface =
             |&position: &Point| reader.is_on_surface(ProbePoint { position, normal: read.normal });
         let in_space = !read.points.iter().all(on_surface);

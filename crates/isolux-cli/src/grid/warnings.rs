@@ -4,6 +4,7 @@ use crate::grid_values::GridValues;
 use crate::notes::{Note, note};
 use crate::quantity::show_share;
 use crate::shown::name;
+use crate::unlit::is_dark;
 use isolux::engine::MapReader;
 use isolux::map::Illuminance;
 use isolux_formats::counted;
@@ -66,7 +67,7 @@ pub(super) fn warn(
         let are = counted(all, "point is", "points are");
         warn(format!("{unknown} of {are} left out, inside an object or where no light reaches"));
     }
-    let is_dark = values.iter().flatten().all(|value| value.illuminance_lx() == 0.0);
+    let is_dark = values.iter().flatten().all(is_dark);
     let dark = outside.count();
     if is_dark && unknown == 0 {
         warn(

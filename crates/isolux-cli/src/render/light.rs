@@ -22,6 +22,13 @@ const DRAFT: f64 = 0.05;
 /// How good a map the samples of a cache would make.
 const CACHE_ACCURACY: f64 = 0.01;
 
+/// A scene, before its light is computed.
+pub(super) struct Opened {
+    pub(super) scene: Scene,
+    /// What light there is already; a scene alone is solved.
+    light: Option<Light>,
+}
+
 /// A scene and what is known of its light.
 pub(super) struct Lit {
     pub(super) scene: Scene,
@@ -46,34 +53,51 @@ pub(super) struct Seen {
     pub(super) cache: Option<CacheUse>,
 }
 
-impl Lit {
-    /// Reads a map, or solves a scene, or opens a cache; nothing if the user stops that.
-    pub(super) fn of(flags: &RenderFlags) -> Result<Option<Self>, Failure> {
+impl Opened {
+    /// Reads a map or a scene, and computes nothing.
+    pub(super) fn of(flags: &RenderFlags) -> Result<Self, Failure> {
         let from = &flags.map;
         if let Some(path) = &flags.cache {
-            return by_cache(flags, path).map(Some);
+            return by_cache(flags, path);
         }
-        let (scene, map) = if is_scene(from) {
-            match solved(from, flags.accuracy.unwrap_or(DRAFT))? {
-                Some(solved) => solved,
-                None => return Ok(None),
-            }
-        } else if flags.accuracy.is_some() {
+        if is_scene(from) {
+            return Ok(Self { scene: source::read_scene(from)?, light: None });
+        }
+        if flags.accuracy.is_some() {
             return Err(Failure::bad_input(format!(
                 "--accuracy: {} is a map, solved before; it belongs to a scene or to --cache; leave it out",
                 from.display()
             )));
-        } else {
-            map_file::read(from)?
-        };
-        let light = match (flags.interpolated, flags.finer) {
-            (false, _) => Light::Map(Box::new(map)),
-            (true, None) => Light::Bare(Box::new(map)),
-            (true, Some(limit)) => Light::Bare(Box::new(walk::finer(&scene, &map, limit))),
-        };
-        Ok(Some(Self { scene, light }))
+        }
+        let (scene, map) = map_file::read(from)?;
+        Ok(Self { scene, light: Some(Light::Map(Box::new(map))) })
     }
 
+    /// Solves what is not solved yet; nothing if the user stops that.
+    pub(super) fn lit(self, flags: &RenderFlags) -> Result<Option<Lit>, Failure> {
+        let Self { scene, light } = self;
+        let light = match light {
+            Some(light) => light,
+            None => {
+                let accuracy = flags.accuracy.unwrap_or(DRAFT);
+                match solved(&flags.map, &scene, accuracy)? {
+                    Some(map) => Light::Map(Box::new(map)),
+                    None => return Ok(None),
+                }
+            }
+        };
+        let light = match (light, flags.interpolated, flags.finer) {
+            (Light::Map(map), true, None) => Light::Bare(map),
+            (Light::Map(map), true, Some(limit)) => {
+                Light::Bare(Box::new(walk::finer(&scene, &map, limit)))
+            }
+            (light, ..) => light,
+        };
+        Ok(Some(Lit { scene, light }))
+    }
+}
+
+impl Lit {
     /// The map, unless there is none.
     pub(super) fn map(&self) -> Option<&IlluminationMap> {
         match &self.light {
@@ -82,8 +106,8 @@ impl Lit {
         }
     }
 
-    /// The views that flags ask for.
-    pub(super) fn views(&self, flags: &RenderFlags) -> Result<Vec<NamedView>, Failure> {
+    /// The view of our own, where no camera is asked for and the scene has none.
+    pub(super) fn own_view(&self, flags: &RenderFlags) -> NamedView {
         let is_lit = |triangle, back, [u, v]: [f64; 2]| match self.map() {
             Some(map) => {
                 let read = map.interpolate(triangle, back, u, v);
@@ -91,8 +115,7 @@ impl Lit {
             }
             None => carries_map(&self.scene, triangle, back),
         };
-        viewpoint::chosen(&self.scene, &flags.eye, &is_lit)
-            .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))
+        viewpoint::own(&self.scene, &flags.eye, &is_lit)
     }
 
     /// Looks; nothing if the user stops that.
@@ -118,7 +141,7 @@ fn is_scene(path: &Path) -> bool {
     source::is_builtin(path) || path.exists() && !map_file::is_map(path)
 }
 
-fn by_cache(flags: &RenderFlags, path: &Path) -> Result<Lit, Failure> {
+fn by_cache(flags: &RenderFlags, path: &Path) -> Result<Opened, Failure> {
     if flags.look.exposure == ExposureChoice::Map {
         let what = "--exposure map: with --cache no map is read; leave one of the two out";
         return Err(Failure::bad_input(what));
@@ -132,12 +155,11 @@ fn by_cache(flags: &RenderFlags, path: &Path) -> Result<Lit, Failure> {
         return Err(source::no_light(from, &scene));
     }
     let accuracy = flags.accuracy.unwrap_or(CACHE_ACCURACY);
-    Ok(Lit { scene, light: Light::Cache { path: path.to_owned(), accuracy } })
+    Ok(Opened { scene, light: Some(Light::Cache { path: path.to_owned(), accuracy }) })
 }
 
-/// A scene and its map, in memory alone; nothing if the user stops the run.
-fn solved(path: &Path, accuracy: f64) -> Result<Option<(Scene, IlluminationMap)>, Failure> {
-    let scene = source::read_scene(path)?;
+/// The map of a scene, in memory alone; nothing if the user stops the run.
+fn solved(path: &Path, scene: &Scene, accuracy: f64) -> Result<Option<IlluminationMap>, Failure> {
     let place = path.display();
     note(
         Note::Info,
@@ -148,10 +170,10 @@ fn solved(path: &Path, accuracy: f64) -> Result<Option<(Scene, IlluminationMap)>
         ),
     );
     let request = SolveRequest { accuracy: Some(accuracy), ..SolveRequest::default() };
-    let solved = solving::solve_here((&scene, path), &request)?;
+    let solved = solving::solve_here((scene, path), &request)?;
     if solved.outcome == Outcome::Interrupted {
         return Ok(None);
     }
     Interrupt::install()?.has_nothing_more_to_keep();
-    Ok(Some((scene, solved.solution.map)))
+    Ok(Some(solved.solution.map))
 }

@@ -11,10 +11,10 @@ use crate::flags::RenderFlags;
 use crate::look::Look;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
-use crate::viewpoint::NamedView;
+use crate::viewpoint::{self, NamedView};
 use isolux_formats::luminance::{Luminances, encode_exr, encode_radiance};
 use isolux_view::{LuminanceImage, Picture};
-use light::{Lit, Seen};
+use light::{Opened, Seen};
 use outputs::{Kind, Output, Wanted};
 use report::{Indirect, Report, ViewReport};
 
@@ -22,11 +22,17 @@ use report::{Indirect, Report, ViewReport};
 pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     let wanted = Wanted::of(flags)?;
     let look = Look::of(&flags.look)?;
-    let Some(lit) = Lit::of(flags)? else { return Ok(Outcome::Interrupted) };
-    let look = look.of_scene(&lit.scene, lit.map());
-    let views = lit.views(flags)?;
-    let names: Vec<&str> = views.iter().map(|view| view.name.as_str()).collect();
+    let opened = Opened::of(flags)?;
+    // All that can be wrong with views and files is found before minutes are spent on light.
+    let asked = viewpoint::asked(&opened.scene, &flags.eye, &flags.map)?;
+    let names: Vec<&str> = match &asked {
+        Some(views) => views.iter().map(|view| view.name.as_str()).collect(),
+        None => vec![viewpoint::OWN],
+    };
     let outputs = wanted.of_views(&names, &flags.map)?;
+    let Some(lit) = opened.lit(flags)? else { return Ok(Outcome::Interrupted) };
+    let look = look.of_scene(&lit.scene, lit.map());
+    let views = asked.unwrap_or_else(|| vec![lit.own_view(flags)]);
     let (mut drawn, mut problems) = (Vec::new(), Vec::new());
     for (named, outputs) in views.iter().zip(outputs) {
         let size = fitted(flags.size, named.view.projection.aspect());

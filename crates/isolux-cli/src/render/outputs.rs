@@ -37,11 +37,13 @@ impl Wanted {
     pub(super) fn of(flags: &RenderFlags) -> Result<Self, Failure> {
         let kind = |path: &PathBuf| kind_of(path, flags).map(|kind| (path.clone(), kind));
         let mut all = flags.output.iter().map(kind).collect::<Result<Vec<_>, _>>()?;
+        let chart = flags.look.false_colour_output.iter();
+        chart.clone().chain(&flags.output).try_for_each(|path| check_places(path))?;
         if flags.look.false_colour && !all.iter().any(|(_, kind)| *kind == Kind::Chart) {
             let what = "--false-colour: no output shows it; end the name of one in .png";
             return Err(Failure::bad_input(what));
         }
-        all.extend(flags.look.false_colour_output.iter().map(|path| (path.clone(), Kind::Chart)));
+        all.extend(chart.map(|path| (path.clone(), Kind::Chart)));
         let fixed = all.iter().filter(|(path, _)| !has_place(path));
         for (path, kind) in fixed {
             checked(path, *kind)?;
@@ -110,6 +112,22 @@ fn checked(path: &Path, kind: Kind) -> Result<OutputPath, Failure> {
     OutputPath::check(path, extension)
 }
 
+/// Refuses words in braces that stand for nothing: `{kamera}`.
+fn check_places(path: &Path) -> Result<(), Failure> {
+    let text = path.to_string_lossy();
+    let words =
+        text.split('{').skip(1).filter_map(|rest| rest.split_once('}')).map(|(word, _)| word);
+    let is_word = |word: &&str| !word.is_empty() && word.chars().all(char::is_alphabetic);
+    match words.filter(is_word).find(|word| PLACE != format!("{{{word}}}")) {
+        Some(word) => {
+            let what =
+                format!("{{{word}}} stands for nothing; write {PLACE} for the name of the camera");
+            Err(Failure::of_file(path, what))
+        }
+        None => Ok(()),
+    }
+}
+
 fn has_place(path: &Path) -> bool {
     path.to_string_lossy().contains(PLACE)
 }
@@ -128,6 +146,21 @@ fn named(template: &Path, camera: &str) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_word_alone_stands_for_something() {
+        for (name, is_right) in [
+            ("v.png", true),
+            ("{camera}/v-{camera}.png", true),
+            ("{}.png", true),
+            ("{12-ab}.png", true),
+            ("}{.png", true),
+            ("{kamera}.png", false),
+            ("{camera}-{name}.png", false),
+        ] {
+            assert_eq!(check_places(Path::new(name)).is_ok(), is_right, "{name}");
+        }
+    }
 
     #[test]
     fn cameras_name_files() {

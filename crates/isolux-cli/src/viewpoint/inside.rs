@@ -24,6 +24,9 @@ const RAYS: [u32; 2] = [16, 9];
 /// The distance up to which nothing may stand before the eye, as a share of the scene's extent.
 const CLEARANCE: f64 = 0.02;
 
+/// The name of the view.
+pub(crate) const OWN: &str = "inside";
+
 /// Whether light is known at a place of a triangle, by its number, whether it is its back, and barycentric coordinates.
 pub(crate) type IsLit<'a> = dyn Fn(u32, bool, [f64; 2]) -> bool + Sync + 'a;
 
@@ -85,7 +88,7 @@ fn camera(scene: &Scene, position: Point, number: usize) -> Camera {
     let (sin, cos) = libm::sincos(TAU * number as f64 / DIRECTIONS as f64);
     let towards = east * cos + north * sin - up * DESCENT;
     Camera {
-        name: "inside".to_owned(),
+        name: OWN.to_owned(),
         position,
         direction: towards.direction().unwrap_or(Direction::X),
         up: up_of(scene),

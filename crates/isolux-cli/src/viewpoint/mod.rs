@@ -4,13 +4,15 @@ mod inside;
 mod overview;
 mod radiance;
 
+use crate::failure::Failure;
 use crate::flags::EyeFlags;
 use crate::shown::names;
-pub(crate) use inside::IsLit;
+pub(crate) use inside::{IsLit, OWN};
 use isolux::geometry::{Point, Vector};
 use isolux::scene::{Camera, Scene, UpAxis};
 use isolux_view::{Projection, View};
 use overview::{Gaze, VERTICAL_FOV_RAD, gaze, overview, up_of};
+use std::path::Path;
 
 /// The sine of the steepest way from an eye to the middle of the scene that it looks along if it has no target.
 const STEEPEST: f64 = 0.95;
@@ -29,45 +31,57 @@ impl From<&Camera> for NamedView {
 }
 
 /// The views that flags ask for: of cameras by name, of all of them, from an eye, or as Radiance says; else of the first camera of
-/// the scene, or else of one of our own inside it. There is always one at least.
-pub(crate) fn chosen(
+/// the scene. There is always one at least. `None` where nothing is asked of a scene without cameras: its view is [`own`].
+pub(crate) fn asked(
     scene: &Scene,
     flags: &EyeFlags,
-    is_lit: &IsLit<'_>,
-) -> Result<Vec<NamedView>, String> {
-    let mut views = perspectives(scene, flags, is_lit)?;
+    file: &Path,
+) -> Result<Option<Vec<NamedView>>, Failure> {
+    let views = perspectives(scene, flags, file)?;
+    let shaped = |view| shaped(scene, flags, view);
+    Ok(views.map(|views| views.into_iter().map(shaped).collect()))
+}
+
+/// The view of our own inside a scene, by what is lit there.
+pub(crate) fn own(scene: &Scene, flags: &EyeFlags, is_lit: &IsLit<'_>) -> NamedView {
+    let view = View::from(&inside::inside(scene, is_lit));
+    shaped(scene, flags, NamedView { name: OWN.to_owned(), view })
+}
+
+/// The view, or all around from its eye if flags ask for that.
+fn shaped(scene: &Scene, flags: &EyeFlags, NamedView { name, mut view }: NamedView) -> NamedView {
     if flags.panorama {
         let up = up_of(scene);
-        for NamedView { view, .. } in &mut views {
-            // Eyes that look straight up or down have ahead of them what is up in their picture.
-            if gaze(view.direction.to_vector(), up.to_vector()).is_err() {
-                view.direction = view.up;
-            }
-            *view = View { up, projection: Projection::Panorama, ..*view };
+        // Eyes that look straight up or down have ahead of them what is up in their picture.
+        if gaze(view.direction.to_vector(), up.to_vector()).is_err() {
+            view.direction = view.up;
         }
+        view = View { up, projection: Projection::Panorama, ..view };
     }
-    Ok(views)
+    NamedView { name, view }
 }
 
 fn perspectives(
     scene: &Scene,
     flags: &EyeFlags,
-    is_lit: &IsLit<'_>,
-) -> Result<Vec<NamedView>, String> {
-    let eye = |view| vec![NamedView { name: "eye".to_owned(), view }];
+    file: &Path,
+) -> Result<Option<Vec<NamedView>>, Failure> {
+    let eye = |view| Some(vec![NamedView { name: "eye".to_owned(), view }]);
     if let Some(view) = radiance::asked(&flags.radiance)? {
         return Ok(eye(view));
     }
     if let Some(position) = flags.eye {
-        return eye_of(scene, position, flags).map(eye);
+        return eye_of(scene, position, flags).map(eye).map_err(Failure::bad_input);
     }
+    let of_scene = |what: String| Failure::of_file(file, what);
     match (flags.camera.as_slice(), flags.all_cameras, scene.cameras()) {
-        (_, true, []) => Err("there is no camera; leave --all-cameras out".to_owned()),
-        (_, true, all) => Ok(all.iter().map(NamedView::from).collect()),
-        ([], _, []) => Ok(vec![(&inside::inside(scene, is_lit)).into()]),
-        ([], _, [first, ..]) => Ok(vec![first.into()]),
+        (_, true, []) => Err(of_scene("there is no camera; leave --all-cameras out".to_owned())),
+        (_, true, all) => Ok(Some(all.iter().map(NamedView::from).collect())),
+        ([], _, []) => Ok(None),
+        ([], _, [first, ..]) => Ok(Some(vec![first.into()])),
         (wanted, ..) => {
-            wanted.iter().map(|name| camera(scene, Some(name)).map(|c| (&c).into())).collect()
+            let named = |name: &String| camera(scene, Some(name)).map(|c| (&c).into());
+            wanted.iter().map(named).collect::<Result<_, _>>().map(Some).map_err(of_scene)
         }
     }
 }

@@ -1,8 +1,11 @@
 //! Views as Radiance writes them: in view files and as options (`-vtv -vp … -vd … -vu … -vh … -vv …`).
 
 use super::overview::{Gaze, gaze};
+use crate::failure::Failure;
 use crate::flags::RadianceFlags;
+use crate::source::bad_file;
 use isolux::geometry::{Point, Vector};
+use isolux_formats::Problem;
 use isolux_view::{Projection, View};
 use std::path::Path;
 
@@ -39,7 +42,7 @@ impl Default for Options {
 }
 
 /// The view of a view file, with the options beside it, or what is wrong with them. Nothing if neither is given.
-pub(super) fn asked(flags: &RadianceFlags) -> Result<Option<View>, String> {
+pub(super) fn asked(flags: &RadianceFlags) -> Result<Option<View>, Failure> {
     let RadianceFlags { radiance_view, vt, vp, vd, vu, vh, vv, .. } = flags;
     let is_given =
         [vp, vd, vu].iter().any(|option| option.is_some()) || vh.or(*vv).is_some() || vt.is_some();
@@ -62,8 +65,10 @@ pub(super) fn asked(flags: &RadianceFlags) -> Result<Option<View>, String> {
     if let Some(kind) = vt {
         options.kind.clone_from(kind);
     }
-    let place = radiance_view.as_ref().map_or("view".to_owned(), |path| path.display().to_string());
-    options.view().map(Some).map_err(|problem| format!("{place}: {problem}"))
+    options.view().map(Some).map_err(|problem| match radiance_view {
+        Some(path) => Failure::of_file(path, problem),
+        None => Failure::bad_input(format!("view: {problem}")),
+    })
 }
 
 /// A type of views, as written after `-vt`.
@@ -79,18 +84,15 @@ fn drawn() -> String {
 }
 
 /// The options of a view file, or what is wrong with it.
-fn read(path: &Path) -> Result<Options, String> {
-    let cannot = |problem: String| format!("{}: {problem}", path.display());
-    let unreadable = |e: std::io::Error| match e.kind() {
-        std::io::ErrorKind::NotFound => cannot("does not exist; check the name".to_owned()),
-        _ => cannot(format!("cannot be read ({e})")),
-    };
+fn read(path: &Path) -> Result<Options, Failure> {
+    let unreadable = |e: std::io::Error| bad_file(Problem::unreadable(path, &e).into());
     let size = std::fs::metadata(path).map_err(unreadable)?.len();
     if size > MOST_BYTES {
-        return Err(cannot("is too large for a view file of Radiance".to_owned()));
+        let what = "is too large for a view file of Radiance; give one of at most a megabyte";
+        return Err(Failure::of_file(path, what));
     }
     let bytes = std::fs::read(path).map_err(unreadable)?;
-    parsed(&String::from_utf8_lossy(&bytes)).map_err(cannot)
+    parsed(&String::from_utf8_lossy(&bytes)).map_err(|what| Failure::of_file(path, what))
 }
 
 /// The options of the last view of a text. Each counts from where it stands, as in Radiance.

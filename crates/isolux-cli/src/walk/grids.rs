@@ -43,7 +43,7 @@ pub(crate) fn grids_of_map(scene: &Scene, map: &IlluminationMap) -> Vec<u8> {
 /// The grids of a scene with the values of its map; those that have problems are left out.
 fn tables(scene: &Scene, reader: &MapReader<'_>) -> Vec<GridTable> {
     let sound = scene.grids().iter().filter(|grid| grid.problem().is_none());
-    let read = sound.filter_map(|grid| GridValues::of(grid.clone(), reader));
+    let read = sound.filter_map(|grid| GridValues::of(grid.clone(), (scene, reader)));
     read.map(|read| table(&read)).collect()
 }
 

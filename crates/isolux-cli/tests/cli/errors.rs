@@ -78,3 +78,47 @@ fn errors_have_colour_where_it_is_wanted() {
     let wrong = run_with(&home, &["solve"], &[("CLICOLOR_FORCE", "1")]).err;
     assert!(wrong.contains('\u{1b}'), "{wrong:?}");
 }
+
+#[test]
+fn a_missing_view_file_is_the_file_of_the_error() {
+    let home = Home::new();
+    for flag in [&["--vf", "missing.vf"][..], &["--vf=missing.vf"], &["-vf", "missing.vf"]] {
+        let words = [&["render", "builtin:hall", "-o", "v.png", "--json"], flag].concat();
+        let ran = home.run(&words);
+        let error = &ran.json()["error"];
+        assert_eq!((ran.code, &error["file"]), (2, &"missing.vf".into()), "{error}");
+        assert!(!ran.err.contains("solved"), "{ran:?}");
+    }
+    home.file("bad.vf", "rvu -vtv -vo 2\n");
+    let ran = home.run(&["render", "builtin:hall", "-o", "v.png", "--vf", "bad.vf", "--json"]);
+    let error = &ran.json()["error"];
+    assert_eq!((&error["file"], &error["remedy"]), (&"bad.vf".into(), &"leave it out".into()));
+}
+
+#[test]
+fn names_of_files_act_on_no_terminal() {
+    let home = Home::new();
+    let name = r"lamp\u202egpj.\u001b[31m";
+    let scene = format!(
+        "name = \"{name}\"\n[materials.\"{name}\"]\ndiffuse = 0.5\n\
+         [[geometry]]\nname = \"{name}\"\nmaterial = \"{name}\"\nbox = {{ min = [0, 0, 0], max = [4, 4, 3], inward = true }}\n\
+         [[luminaire]]\nname = \"{name}\"\nposition = [2, 2, 5]\nisotropic = {{ flux_lm = 1000 }}\n\
+         [[camera]]\nname = \"{name}\"\nposition = [1, 1, 1]\ntarget = [3, 3, 1]\n"
+    );
+    home.file("named.toml", scene);
+    for words in [
+        &["info", "named.toml"][..],
+        &["info", "named.toml", "--json"],
+        &["check", "named.toml"],
+        &["check", "named.toml", "--json"],
+        &["render", "named.toml", "-o", "v.png", "--camera", "x"],
+        &["solve", "named.toml", "-o", "m.glb", "--accuracy", "20%", "--progress", "json"],
+    ] {
+        let ran = home.run(words);
+        for text in [&ran.out, &ran.err] {
+            assert!(!text.contains(['\u{202e}', '\u{1b}']), "{words:?}: {text:?}");
+        }
+    }
+    let info = home.run(&["info", "named.toml", "--json"]);
+    assert_eq!(info.json()["cameras"][0], "lamp\u{202e}gpj.\u{1b}[31m");
+}

@@ -5,6 +5,7 @@ mod arriving;
 mod bad_input;
 #[cfg(unix)]
 mod caches;
+mod dark;
 mod days;
 mod engines;
 mod errors;

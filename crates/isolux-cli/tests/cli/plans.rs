@@ -99,11 +99,17 @@ fn plans_are_pictures_too_and_are_refused_where_they_cannot_be_drawn() {
     assert!(std::fs::read(home.path("plan.png")).unwrap().starts_with(b"\x89PNG"));
     let ran = home.run(&["grid", "map.glb", "-o", "plan.jpg"]);
     assert!(ran.code == 2 && ran.err.contains(".png or .svg"), "{ran:?}");
-    // Within the wall nothing is known.
-    let within = ["--corner", "4.02,1,0.75", "--u", "0.05,0,0", "--v", "0,1,0", "-o", "none.png"];
-    let ran = home.run(&[&["grid", "map.glb"], &within[..]].concat());
-    assert_eq!(ran.code, 2, "{ran:?}");
-    assert!(!home.path("none.png").exists());
+    // Within the wall nothing is known, and a plan says so as the table does.
+    let within = ["--corner", "4.02,1,0.75", "--u", "0.05,0,0", "--v", "0,1,0"];
+    let table = home.run(&[&["grid", "map.glb"], &within[..]].concat());
+    let drawn = home.run(&[&["grid", "map.glb", "-o", "none.svg"], &within[..]].concat());
+    assert_eq!(
+        (drawn.code, &drawn.out, &drawn.err),
+        (0, &table.out, &table.err),
+        "{drawn:?} {table:?}"
+    );
+    let svg = std::fs::read_to_string(home.path("none.svg")).unwrap();
+    assert!(texts(&svg).contains(&"no value is known at any of its points"), "{svg}");
 }
 
 #[test]
@@ -115,4 +121,29 @@ fn a_grid_on_a_wall_has_a_plan_as_seen_from_the_room() {
     assert!(texts.contains(&"x in m") && texts.contains(&"z in m"), "{texts:?}");
     assert!(texts.contains(&"cut by this plane"), "{texts:?}");
     assert!(!texts.iter().any(|text| text.contains("height")), "{texts:?}");
+    let about = texts.iter().find(|text| text.starts_with("Grid: grid")).unwrap();
+    assert!(about.contains("on box 1/y_max"), "{about}");
+    let off = ["--corner", "0,3.5,0.5", "--u", "4,0,0", "--v", "0,0,2"];
+    assert!(drawn(&home, &off).contains("0.5 m before box 1/y_max"));
+}
+
+#[test]
+fn an_opening_is_drawn_with_its_name() {
+    let home = Home::new();
+    let angles = "0 45 90\n0\n1000 700 0\n";
+    home.file(
+        "strip.ies",
+        format!("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0.3 1.2 0\n1 1 40\n{angles}"),
+    );
+    let scene = "[materials.m]\ndiffuse = 0.5\n\
+        [[geometry]]\nmaterial = \"m\"\nbox = { min = [0, 0, 0], max = [8, 4, 3], inward = true }\n\
+        [[luminaire]]\nname = \"strip\"\nposition = [2, 2, 2.9]\nies = \"strip.ies\"\n\
+        array = { count = [2, 1, 1], step = [4, 0, 0] }\n\
+        [[grid]]\nname = \"floor\"\ncorner = [0, 0, 0.1]\nu = [8, 0, 0]\nv = [0, 4, 0]\n";
+    home.file("strips.toml", scene);
+    let ran =
+        home.run(&["solve", "strips.toml", "-o", "map.glb", "--accuracy", "10%", "--no-audit"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let svg = drawn(&home, &[]);
+    assert_eq!(texts(&svg).iter().filter(|text| **text == "strip").count(), 2, "{svg}");
 }

@@ -1,5 +1,7 @@
 //! What a drawing is made of.
 
+use crate::text::Font;
+
 /// A place on the sheet, pixels from the top left.
 pub(crate) type At = [f64; 2];
 
@@ -75,6 +77,22 @@ pub(crate) enum Letters {
     Large,
 }
 
+impl Letters {
+    /// The font of pixels.
+    pub(super) fn font(self) -> Font {
+        Font::of_height(match self {
+            Self::Small => 16.0,
+            Self::Large => 24.0,
+        })
+    }
+}
+
+/// Width and height of a text, pixels.
+pub(crate) fn extent(letters: Letters, text: &str) -> [f64; 2] {
+    let font = letters.font();
+    [font.width(text) as f64, font.height() as f64]
+}
+
 /// A line of text.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Lettering {
@@ -83,7 +101,26 @@ pub(crate) struct Lettering {
     pub(crate) anchor: Anchor,
     pub(crate) letters: Letters,
     pub(crate) ink: Ink,
-    /// A rim that sets it apart from what it lies on.
+    /// A plate and a rim that set it apart from what it lies on.
     pub(crate) halo: Option<Ink>,
     pub(crate) text: String,
+}
+
+impl Lettering {
+    /// Where it begins.
+    pub(super) fn left(&self) -> f64 {
+        let width = extent(self.letters, &self.text)[0];
+        match self.anchor {
+            Anchor::Left => self.at[0],
+            Anchor::Middle => self.at[0] - 0.5 * width,
+            Anchor::Right => self.at[0] - width,
+        }
+    }
+
+    /// The upper left and the lower right corner of the plate of its halo: letters fill about three quarters of their line.
+    pub(super) fn plate(&self) -> [At; 2] {
+        let [width, height] = extent(self.letters, &self.text);
+        let (left, half) = (self.left(), 0.375 * height);
+        [[left - 1.0, self.at[1] - half], [left + width + 1.0, self.at[1] + half]]
+    }
 }

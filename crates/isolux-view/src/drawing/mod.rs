@@ -4,12 +4,11 @@ mod mark;
 mod raster;
 mod svg;
 
-pub(crate) use mark::{Anchor, At, Ink, Lettering, Letters, Line, Mark, Pixels};
+pub(crate) use mark::{Anchor, At, Ink, Lettering, Letters, Line, Mark, Pixels, extent};
 
 use crate::error::ViewError;
 use crate::image::Size;
 use crate::picture::Picture;
-use raster::font;
 
 /// Colour of the sheet.
 pub(crate) const PAPER: Ink = [255; 3];
@@ -50,10 +49,4 @@ impl Drawing {
     pub fn svg(&self) -> String {
         svg::written([self.size.width(), self.size.height()], &self.marks)
     }
-}
-
-/// Width and height of a text, pixels.
-pub(crate) fn extent(letters: Letters, text: &str) -> [f64; 2] {
-    let font = font(letters);
-    [font.width(text) as f64, font.height() as f64]
 }

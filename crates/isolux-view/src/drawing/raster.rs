@@ -1,21 +1,14 @@
 //! Drawings as pixels.
 
-use super::mark::{Anchor, At, Ink, Lettering, Letters, Line, Mark, Pixels};
+use super::mark::{At, Ink, Lettering, Line, Mark, Pixels};
 use crate::marching::Segment;
 use crate::picture::Picture;
 use crate::stroke::stroke;
-use crate::text::Font;
 
+/// Width of the rim of letters with a halo, pixels.
+const RIM: i64 = 2;
 /// Rows of samples in a pixel of an area.
 const ROWS: i64 = 4;
-
-/// The font of letters of a size.
-pub(super) fn font(letters: Letters) -> Font {
-    Font::for_picture(match letters {
-        Letters::Small => 0,
-        Letters::Large => 1000,
-    })
-}
 
 /// Draws a mark over what is there.
 pub(super) fn draw(on: &mut Picture, mark: &Mark) {
@@ -104,18 +97,14 @@ fn cover_span(cover: &mut [f64], from: f64, to: f64) {
 }
 
 fn draw_text(on: &mut Picture, lettering: &Lettering) {
-    const AROUND: [(i64, i64); 8] =
-        [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, 1), (-1, 1), (1, -1)];
-    let font = font(lettering.letters);
-    let width = font.width(&lettering.text) as f64;
-    let left = match lettering.anchor {
-        Anchor::Left => lettering.at[0],
-        Anchor::Middle => lettering.at[0] - 0.5 * width,
-        Anchor::Right => lettering.at[0] - width,
-    };
-    let (x, y) = (left.round() as i64, lettering.at[1].round() as i64 - font.height() / 2);
+    let font = lettering.letters.font();
+    let (x, y) =
+        (lettering.left().round() as i64, lettering.at[1].round() as i64 - font.height() / 2);
     if let Some(halo) = lettering.halo {
-        for (dx, dy) in AROUND {
+        let [low, high] = lettering.plate();
+        let [left, top] = low.map(|c| c.round() as i64);
+        on.fill(left, top, (high[0] - low[0]) as i64, (high[1] - low[1]) as i64, halo);
+        for (dx, dy) in (-RIM..=RIM).flat_map(|dx| (-RIM..=RIM).map(move |dy| (dx, dy))) {
             font.write(on, (x + dx, y + dy), &lettering.text, halo);
         }
     }

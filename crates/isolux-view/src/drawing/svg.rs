@@ -9,7 +9,7 @@ use std::fmt::Write;
 pub(super) fn written([width, height]: [u32; 2], marks: &[Mark]) -> String {
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-         height=\"{height}\" font-family=\"sans-serif\" xml:space=\"preserve\">\n\
+         height=\"{height}\" font-family=\"sans-serif\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
     );
     for mark in marks {
@@ -82,9 +82,14 @@ fn append_text(svg: &mut String, lettering: &Lettering) {
         Letters::Large => 20.0,
     };
     let halo = lettering.halo.map_or(String::new(), |halo| {
-        let halo = colour(halo);
+        let (halo, [[left, top], [right, bottom]]) = (colour(halo), lettering.plate());
+        let (width, height) = (right - left, bottom - top);
+        let _ = writeln!(
+            svg,
+            "<rect x=\"{left:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" rx=\"3\" fill=\"{halo}\"/>"
+        );
         format!(
-            " stroke=\"{halo}\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\""
+            " stroke=\"{halo}\" stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\""
         )
     });
     // Digits are about seven tenths as high as their font.
@@ -93,7 +98,8 @@ fn append_text(svg: &mut String, lettering: &Lettering) {
         svg,
         "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{ink}\"{halo}>{}</text>",
         y + 0.35 * size,
-        escaped(&lettering.text)
+        // Not all viewers keep spaces in a row unless they are no-break spaces.
+        escaped(&lettering.text).replace("  ", " \u{a0}")
     );
 }
 
@@ -118,8 +124,9 @@ mod tests {
             letters: Letters::Small,
             ink: [0; 3],
             halo: None,
-            text: "a & <b>".into(),
+            text: "a & <b>   c".into(),
         };
-        assert!(written([3, 2], &[Mark::Text(lettering)]).contains(">a &amp; &lt;b&gt;</text>"));
+        let svg = written([3, 2], &[Mark::Text(lettering)]);
+        assert!(svg.contains(">a &amp; &lt;b&gt; \u{a0} c</text>"), "{svg}");
     }
 }

@@ -32,23 +32,29 @@ pub(super) fn bands(field: &Field<'_>, frame: &Frame, levels: &Levels) -> Mark {
     Mark::Pixels(Pixels { left, top, width, inks })
 }
 
-/// Lines and their labels.
-pub(super) fn draw(
-    on: &mut Drawing,
-    room: &mut Room,
-    (field, frame): (&Field<'_>, &Frame),
-    levels: &Levels,
-) {
-    let lines: Vec<Vec<Vec<At>>> =
-        segments(field, frame, &levels.0).iter().map(|pieces| joined(pieces)).collect();
-    for line in lines.iter().flatten() {
-        on.line(Line::solid(line.clone(), WIDTH, INK));
+/// Lines of equal value, level by level.
+pub(super) struct Isolines(Vec<Vec<Vec<At>>>);
+
+impl Isolines {
+    pub(super) fn of(field: &Field<'_>, frame: &Frame, levels: &Levels) -> Self {
+        Self(segments(field, frame, &levels.lux).iter().map(|pieces| joined(pieces)).collect())
     }
-    let inks = levels.inks();
-    for (k, lines) in lines.iter().enumerate() {
-        let text = number(levels.0[k]);
-        for line in lines {
-            label(on, room, line, (&text, inks[k + 1]));
+
+    /// Draws the lines, below all that is written and all that stands in the room.
+    pub(super) fn draw(&self, on: &mut Drawing) {
+        for line in self.0.iter().flatten() {
+            on.line(Line::solid(line.clone(), WIDTH, INK));
+        }
+    }
+
+    /// Writes their values on them, where there is room.
+    pub(super) fn label(&self, on: &mut Drawing, room: &mut Room, levels: &Levels) {
+        let inks = levels.inks();
+        for (k, lines) in self.0.iter().enumerate() {
+            let text = number(levels.lux[k]);
+            for line in lines {
+                label(on, room, line, (&text, inks[k + 1]));
+            }
         }
     }
 }

@@ -2,11 +2,9 @@
 
 use super::frame::{Place, Plane, Window};
 use isolux::geometry::{Point, Ray, Vector};
-use isolux::scene::{LuminaireKind, Scene};
+use isolux::scene::{Luminaire, LuminaireKind, Scene};
 use std::collections::HashMap;
 
-/// Points of one name at most so far apart, m, belong to one luminaire, whose opening they fill.
-const OPENING_M: f64 = 0.5;
 /// A luminaire is looked for from the plane up to here and from so far beside it, m: a housing hides its own light.
 const BESIDE_M: f64 = 0.4;
 /// Short of the luminaire itself, m.
@@ -46,19 +44,19 @@ pub(super) fn lamps(scene: &Scene, plane: &Plane, window: &Window) -> Vec<Lamp> 
 }
 
 fn point_sources(scene: &Scene) -> Vec<Source> {
-    let mut sources: Vec<Source> = Vec::new();
-    for luminaire in scene.luminaires() {
-        let LuminaireKind::Point { position, .. } = &luminaire.kind else { continue };
-        let joins = |known: &&mut Source| {
-            let is_near = |point: &Point| (*point - *position).length() <= OPENING_M;
-            known.name == luminaire.name && known.points.last().is_some_and(is_near)
+    let source = |luminaire: &Luminaire| {
+        let LuminaireKind::Point { position, world_from_luminaire, area, .. } = &luminaire.kind
+        else {
+            return None;
         };
-        match sources.last_mut().filter(joins) {
-            Some(known) => known.points.push(*position),
-            None => sources.push(Source { name: luminaire.name.clone(), points: vec![*position] }),
-        }
-    }
-    sources
+        let border = area.map_or(vec![Vector::ZERO], |area| area.border());
+        let place = |from_middle| *position + world_from_luminaire.vector(from_middle);
+        Some(Source {
+            name: luminaire.name.clone(),
+            points: border.into_iter().map(place).collect(),
+        })
+    };
+    scene.luminaires().iter().filter_map(source).collect()
 }
 
 /// Emitting triangles that touch each other are one luminaire.

@@ -31,7 +31,7 @@ pub(super) const WIDTH: f64 = 190.0;
 
 /// The height that a legend takes at least, pixels.
 pub(super) fn least_height(levels: &Levels) -> f64 {
-    30.0 + (levels.0.len() as f64 + 1.0) * BAND.0 + 20.0 + 6.0 * ROW
+    30.0 + (levels.lux.len() as f64 + 1.0) * BAND.0 + 20.0 + 6.0 * ROW
 }
 
 /// Draws it from its upper left corner; it may be so high.
@@ -55,7 +55,7 @@ pub(super) fn draw(on: &mut Drawing, [left, top]: At, height: f64, levels: &Leve
         [left, bottom],
     ];
     on.line(Line::around(ring, 1.0, INK));
-    for (k, level) in levels.0.iter().rev().enumerate() {
+    for (k, level) in levels.lux.iter().rev().enumerate() {
         let y = at(k as f64 + 1.0);
         on.line(Line::solid(vec![[left, y], [left + BAR_WIDTH + 6.0, y]], 1.0, INK));
         write(on, [left + BAR_WIDTH + 12.0, y], &number(*level));

@@ -1,5 +1,6 @@
 //! Which lines of equal value are drawn, and the colours between them.
 
+use super::field::Scale;
 use crate::drawing::Ink;
 use crate::false_colour::ColourMap;
 use crate::round::round_step;
@@ -15,9 +16,14 @@ const STEP_IN_ERRORS: f64 = 2.0;
 /// How much of the paper shows through: black letters are read on all colours.
 const PALENESS: f64 = 0.5;
 
-/// Values at which lines are drawn, rising.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Levels(pub(super) Vec<f64>);
+/// Values at which lines are drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Levels {
+    /// The values, rising.
+    pub(super) lux: Vec<f64>,
+    /// Whether they rise by ratios and not by even steps.
+    by_ratios: bool,
+}
 
 impl Levels {
     /// Of values with this standard error.
@@ -25,7 +31,7 @@ impl Levels {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
         let (Some(&least), Some(&most)) = (sorted.first(), sorted.last()) else {
-            return Self(Vec::new());
+            return Self::default();
         };
         let middle = sorted[sorted.len() / 2];
         let inside = |level: &f64| *level > least && *level < most;
@@ -35,23 +41,32 @@ impl Levels {
             let levels = (top - 5..=top).flat_map(|e| [1.0, 2.0, 5.0].map(|m| m * decade(e)));
             let mut levels: Vec<f64> = levels.filter(inside).collect();
             levels.drain(..levels.len().saturating_sub(MOST_UNEVEN));
-            return Self(levels);
+            return Self { lux: levels, by_ratios: true };
         }
         let by_noise =
             if standard_error.is_finite() { STEP_IN_ERRORS * standard_error } else { 0.0 };
         let step = round_step(((most - least) / MOST_LINES).max(by_noise));
         let (first, last) = ((least / step).floor() as i64, (most / step).ceil() as i64);
-        Self((first..=last).map(|k| k as f64 * step).filter(inside).collect())
+        let lux = (first..=last).map(|k| k as f64 * step).filter(inside).collect();
+        Self { lux, by_ratios: false }
+    }
+
+    /// What is interpolated between values: lines by ratios follow logarithms, of what is not far below the lowest of them.
+    pub(super) fn scale(&self) -> Scale {
+        match self.lux.first() {
+            Some(lowest) if self.by_ratios => Scale::Ratios { least: 0.5 * lowest },
+            _ => Scale::Even,
+        }
     }
 
     /// Index of the band between two lines that a value lies in.
     pub(super) fn band(&self, value: f64) -> usize {
-        self.0.partition_point(|level| *level <= value)
+        self.lux.partition_point(|level| *level <= value)
     }
 
     /// Colours of the bands from the lowest.
     pub(super) fn inks(&self) -> Vec<Ink> {
-        let (table, bands) = (ColourMap::Viridis.table(), self.0.len() + 1);
+        let (table, bands) = (ColourMap::Viridis.table(), self.lux.len() + 1);
         let ink = |band: usize| {
             let share = (band as f64 + 0.5) / bands as f64;
             table[(share * table.len() as f64) as usize]
@@ -79,14 +94,14 @@ mod tests {
             (vec![], 1.0, vec![]),
         ] {
             let found = Levels::of(&values, error);
-            assert_eq!(found.0, expected, "{values:?}");
+            assert_eq!(found.lux, expected, "{values:?}");
             assert_eq!(found.inks().len(), expected.len() + 1);
         }
     }
 
     #[test]
     fn a_value_lies_in_the_band_above_the_level_it_reaches() {
-        let levels = Levels(vec![100.0, 200.0]);
+        let levels = Levels { lux: vec![100.0, 200.0], by_ratios: false };
         assert_eq!([99.9, 100.0, 199.0, 200.0].map(|v| levels.band(v)), [0, 1, 1, 2]);
     }
 }

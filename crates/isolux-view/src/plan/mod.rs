@@ -16,6 +16,7 @@ use crate::drawing::{Anchor, At, Drawing, Ink, Lettering, Letters, Mark, PAPER, 
 use crate::error::ViewError;
 use field::Field;
 use frame::{Frame, Plane, Window};
+use isolines::Isolines;
 use isolux::scene::{CalculationGrid, Scene};
 use lamps::Lamp;
 use legend::Shown;
@@ -50,6 +51,8 @@ const CROWDED: f64 = 0.15;
 const MOST_NAMED: usize = 60;
 /// Where the value of a point is written, below or above it, pixels.
 const VALUE_AT: [f64; 2] = [18.0, -18.0];
+/// Free space between values, pixels: lines and their labels are read there.
+const AIR: f64 = 40.0;
 /// Points closer than this have a cross only where their value is written, pixels.
 const CROSSES: f64 = 14.0;
 /// Letters of a name at most.
@@ -89,21 +92,26 @@ impl Plan<'_> {
             self.points.iter().map(|point| point.illuminance_lx).collect();
         let section = Section::of(self.scene, &plane);
         let barriers = section.barriers(BARRIER * plane.cells_m().into_iter().fold(0.0, f64::max));
-        let field = Field::new(&plane, &values, &barriers).ok_or(ViewError::NothingKnown)?;
         let levels = self.levels();
+        let field = Field::new(&plane, (&values, levels.scale()), &barriers);
         let window = window(&plane, &section);
         let frame = self.frame(window);
         let mut sheet = self.sheet(&frame, &levels)?;
         self.draw_heading(&mut sheet);
         let lamps = lamps::lamps(self.scene, &plane, &window);
-        sheet.add(isolines::bands(&field, &frame, &levels));
+        let lines = field.map(|field| {
+            sheet.add(isolines::bands(&field, &frame, &levels));
+            Isolines::of(&field, &frame, &levels)
+        });
+        lines.iter().for_each(|lines| lines.draw(&mut sheet));
         let (cut, behind) = draw_section(&mut sheet, &section, &frame);
         draw_border(&mut sheet, &plane, &frame);
         let [width, height] = frame.size();
         let mut room = Room::new(frame.corner, [frame.corner[0] + width, frame.corner[1] + height]);
+        take_walls(&mut room, &section, &frame);
         draw_lamps(&mut sheet, &mut room, &lamps, &frame);
         self.draw_points((&mut sheet, &mut room), (&plane, &frame), &levels);
-        isolines::draw(&mut sheet, &mut room, (&field, &frame), &levels);
+        lines.iter().for_each(|lines| lines.label(&mut sheet, &mut room, &levels));
         name_lamps(&mut sheet, &mut room, &lamps, &frame);
         axes::draw(&mut sheet, &plane, &frame);
         let has = |is_opening: bool| lamps.iter().any(|lamp| lamp.opening.is_some() == is_opening);
@@ -168,7 +176,8 @@ impl Plan<'_> {
     ) {
         let inks = levels.inks();
         let widest = self.points.iter().map(|point| extent(Letters::Small, &point.label)[0]);
-        let apart = [widest.fold(0.0, f64::max) + 14.0, extent(Letters::Small, "0")[1] + 18.0];
+        let apart =
+            [widest.fold(0.0, f64::max), extent(Letters::Small, "0")[1]].map(|size| size + AIR);
         let across = plane.counts[0] as usize;
         let cells = plane.cells_m().map(|cell_m| cell_m * frame.scale);
         let every = [0, 1].map(|k| (apart[k] / cells[k]).ceil().max(1.0) as usize);
@@ -225,6 +234,25 @@ fn draw_section(sheet: &mut Drawing, section: &Section, frame: &Frame) -> (bool,
     };
     let behind = draw(&section.behind, symbols::behind);
     (draw(&section.pieces, symbols::cut), behind)
+}
+
+/// Nothing is written over walls: along each there are boxes as wide as its line.
+fn take_walls(room: &mut Room, section: &Section, frame: &Frame) {
+    const HALF: f64 = 2.0;
+    for [a, b] in section.pieces.iter().filter_map(|piece| frame.window.clipped(*piece)) {
+        let ([ax, ay], [bx, by]) = (frame.at(a), frame.at(b));
+        // A wall along a side of the sheet takes one box.
+        let boxes = ((bx - ax).abs().min((by - ay).abs()) / (2.0 * HALF)).ceil().max(1.0);
+        for k in 0..boxes as usize {
+            let [from, to] = [k, k + 1].map(|k| k as f64 / boxes);
+            let end = |share: f64| [ax + share * (bx - ax), ay + share * (by - ay)];
+            let ([fx, fy], [tx, ty]) = (end(from), end(to));
+            room.take(
+                [fx.min(tx) - HALF, fy.min(ty) - HALF],
+                [fx.max(tx) + HALF, fy.max(ty) + HALF],
+            );
+        }
+    }
 }
 
 /// The rectangle that the points fill.

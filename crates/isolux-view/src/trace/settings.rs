@@ -1,5 +1,7 @@
 //! What a view is asked for.
 
+use crate::image::{MAX_PIXELS, MAX_SAMPLES};
+
 /// A place of a triangle of a scene, on one side: barycentric weights `(1 - u - v, u, v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
@@ -40,6 +42,12 @@ pub struct TraceSettings {
 }
 
 impl TraceSettings {
+    /// The most pixels that a view may have.
+    pub fn most_pixels(&self) -> u64 {
+        let samples = u64::from(self.samples_per_side).pow(2).max(1);
+        MAX_PIXELS.min(MAX_SAMPLES / samples)
+    }
+
     /// One sample a pixel, in its middle.
     pub const DRAFT: Self = Self { samples_per_side: 1, ..Self::FINE };
     /// Smooth outlines.

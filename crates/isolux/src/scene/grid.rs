@@ -89,13 +89,21 @@ impl CalculationGrid {
             return Some(("is not finite".into(), "give it numbers in metres"));
         }
         let (u_m, v_m) = (self.u.length(), self.v.length());
+        if let Some((name, _)) = [("u", u_m), ("v", v_m)].iter().find(|(_, m)| *m == 0.0) {
+            let what = format!("has a side `{name}` without length");
+            return Some((what, "give both sides a direction and a length in metres"));
+        }
         if self.normal().is_none() || self.u.dot(self.v).abs() > 1e-6 * u_m * v_m {
             return Some((
                 "has sides that are not at right angles".into(),
                 "give `u` and `v` so that they meet at 90 degrees",
             ));
         }
-        if self.border_m < 0.0 || self.sides_m().iter().any(|&side_m| side_m <= 0.0) {
+        if self.border_m < 0.0 {
+            let what = format!("has a border of {} m", self.border_m);
+            return Some((what, "give 0 or more"));
+        }
+        if self.sides_m().iter().any(|&side_m| side_m <= 0.0) {
             let what = format!("leaves nothing within a border of {} m", self.border_m);
             return Some((what, "make the border narrower than half the shorter side"));
         }
@@ -105,7 +113,11 @@ impl CalculationGrid {
         }
         let longest_m = u_m.max(v_m);
         let spacing_m = self.spacing_m.unwrap_or(longest_m);
-        if spacing_m <= 0.0 || longest_m / spacing_m > MOST_POINTS {
+        if spacing_m <= 0.0 {
+            let what = format!("has a spacing of {spacing_m} m");
+            return Some((what, "give the distance of points in metres, above zero"));
+        }
+        if longest_m / spacing_m > MOST_POINTS {
             let what = format!("has points every {spacing_m} m along {longest_m} m");
             return Some((what, "choose a spacing of at least a 4096th of the longer side"));
         }
