@@ -26,9 +26,14 @@ const KNOWN: &[&str] = &[
 ];
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
+/// Whether an extension is read.
+pub(super) fn is_known(name: &str) -> bool {
+    KNOWN.contains(&name)
+}
+
 /// Refuses what is required and unknown; warns of what is used and unknown.
 pub(super) fn check(root: &Root, notes: &mut Notes) {
-    let unknown = |name: &&String| !KNOWN.contains(&name.as_str());
+    let unknown = |name: &&String| !is_known(name);
     let required = &root.extensions_required;
     for name in required.iter().filter(unknown) {
         let what = format!("the extension {name} is required and not supported");

@@ -340,7 +340,7 @@ fn nodes() {
                 f.json["nodes"][0]["matrix"] =
                     json!([1e39, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
             },
-            "line 1",
+            "nodes[0]",
             "number out of range",
         ),
         (
@@ -361,7 +361,7 @@ fn nodes() {
         (
             "scale beyond floats",
             |f| f.json["nodes"][0]["scale"] = json!([1, 1e300, 1]),
-            "line 1",
+            "nodes[0]",
             "number out of range",
         ),
         (
@@ -518,13 +518,14 @@ fn texts() {
             r#"{"asset":{"version":"2.0"},"scene":0,"scene":1}"#.into(),
             "duplicate",
         ),
-        ("negative index", r#"{"asset":{"version":"2.0"},"scene":-1}"#.into(), "invalid type"),
         ("no asset", "{}".into(), "missing field `asset`"),
         ("text behind", r#"{"asset":{"version":"2.0"}} x"#.into(), "trailing characters"),
     ];
     for (name, text, words) in table {
         assert_refused(name, read_bytes("a.gltf", text.as_bytes()), "line 1, column", words);
     }
+    let text = r#"{"asset":{"version":"2.0"},"scene":-1}"#;
+    assert_refused("negative", read_bytes("a.gltf", text.as_bytes()), "scene", "invalid type");
     for version in ["1.0", "3.0", "2", ""] {
         // Meshes were named, not numbered, before version 2.
         let text = format!(r#"{{"asset":{{"version":"{version}"}},"meshes":{{}}}}"#);
