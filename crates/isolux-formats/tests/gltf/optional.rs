@@ -245,6 +245,18 @@ fn odd_parts_that_are_not_read() {
     }
 }
 
+/// Files that require what light at rest knows nothing of were refused.
+#[test]
+fn extensions_of_no_light_may_be_required() {
+    for name in ["KHR_animation_pointer", "KHR_materials_variants", "EXT_structural_metadata"] {
+        let mut file = File::triangle();
+        file.json["extensionsUsed"] = json!([name]);
+        file.json["extensionsRequired"] = json!([name]);
+        let loaded = file.load();
+        assert!(loaded.warnings[0].what.contains(name), "{:?}", loaded.warnings);
+    }
+}
+
 #[test]
 fn what_is_read_is_still_checked_beside_odd_parts() {
     let mut file = full();

@@ -78,7 +78,7 @@ fn what_lies_beside_a_file_is_taken_in() {
     file.json["images"][1]["uri"] = json!("missing.png");
     std::fs::write(&path, file.json.to_string()).unwrap();
     assert!(
-        light.refused(&path).contains("images[1].uri: cannot read"),
+        light.refused(&path).contains("images[1].uri: file `"),
         "{}",
         light.refused(&path)
     );
