@@ -15,8 +15,9 @@ pub(super) fn expand(command: Stages, lookup: Lookup) -> Result<Vec<Stages>, Str
         if made.len().saturating_mul(ways.len()) > limits::COPIES {
             return Err(format!("it makes more than {} copies", limits::COPIES));
         }
-        let with =
-            |before: &Stages, way: &Vec<String>| [before.as_slice(), &[way.clone()]].concat();
+        let with = |before: &Stages, way: &Vec<String>| {
+            [before.as_slice(), std::slice::from_ref(way)].concat()
+        };
         made = made.iter().flat_map(|m| ways.iter().map(move |way| with(m, way))).collect();
     }
     Ok(made)

@@ -4,6 +4,7 @@ use crate::build::{FLOAT, File, U16, floats, png, push};
 use serde_json::{Value, json};
 
 /// A file that uses every kind of object, with every property that glTF 2.0 calls optional.
+#[expect(clippy::too_many_lines, reason = "a file, member by member")]
 fn full() -> File {
     let mut file = File::triangle();
     let picture = file.view(&png(&[[200; 3]]));
