@@ -1,8 +1,9 @@
 //! MTL records into materials.
 
 use super::lines::place;
+use super::reading::Reading;
 use super::record::{MtlMaterial, Named, ObjFile};
-use super::{Reading, libraries, meaning, mtl};
+use super::{libraries, meaning, mtl};
 use crate::findings::Findings;
 use crate::{Loaded, Problem, Problems, picture, source};
 use isolux::scene::{Body, Dielectric, Finish, Material, Texture};

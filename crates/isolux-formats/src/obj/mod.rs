@@ -26,6 +26,7 @@ mod material;
 mod meaning;
 mod mtl;
 mod parse;
+mod reading;
 mod record;
 mod resolve;
 
@@ -33,19 +34,10 @@ use crate::findings::Findings;
 use crate::{Loaded, Problems, source};
 use isolux::scene::SceneParts;
 pub use meaning::Materials;
+pub(crate) use reading::Reading;
 use std::path::Path;
 
 const MOST_BYTES: u64 = 1 << 30;
-
-/// What is known of a file from elsewhere.
-pub(crate) struct Reading<'a> {
-    /// Whether its unit of length is known, so that its size surprises nobody.
-    pub(crate) unit_is_known: bool,
-    /// Whether a material is replaced by another: then it is not looked at, and comes out black.
-    pub(crate) is_replaced: &'a dyn Fn(&str) -> bool,
-    /// Whether materials are read as meant.
-    pub(crate) materials: Materials,
-}
 
 /// Reads an OBJ file and the materials and textures it names, which must lie in its directory tree.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {

@@ -1,8 +1,10 @@
 //! `xform -f`: arguments from the lines of a file, each of which is an `xform` of its own.
 
-use super::command::Lookup;
 use super::limits;
 use super::words::stages;
+
+/// The text of a file that a command names, or why there is none.
+pub(super) type Lookup<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
 
 /// A command as the words of its stages.
 type Stages = Vec<Vec<String>>;

@@ -1,6 +1,6 @@
 //! Commands in scenes, resolved without a shell.
 
-use super::argument_files;
+use super::argument_files::{self, Lookup};
 use super::genbox;
 use super::record::Object;
 use super::words::{number, stages};
@@ -38,9 +38,6 @@ pub(super) struct IesCommand {
 
 /// Why a command is not done, and what to do.
 pub(super) type Refusal = (String, &'static str);
-
-/// The text of a file that a command names, or why there is none.
-pub(super) type Lookup<'a> = &'a mut dyn FnMut(&str) -> Result<String, String>;
 
 /// What a command means: several commands where `xform -f` reads its arguments from the lines of a file.
 pub(super) fn parse(text: &str, line: usize, lookup: Lookup) -> Result<Vec<Command>, Refusal> {

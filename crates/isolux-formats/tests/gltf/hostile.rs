@@ -404,7 +404,7 @@ fn references() {
         ("http", "http://example.org/a.bin", "of the kind `http:`"),
         ("not UTF-8", "%ff%fe", "not UTF-8"),
         ("half a percent sign", "a%4", "without two hexadecimal digits"),
-        ("missing", "missing.bin", "cannot read"),
+        ("missing", "missing.bin", "does not exist"),
         ("directory", ".", "not a regular file"),
         ("data without comma", "data:application/octet-stream;base64", "no comma"),
         ("data not base64", "data:;base64,*", "not valid base64"),
@@ -533,7 +533,7 @@ fn texts() {
     }
     let directory = tempfile::tempdir().unwrap();
     assert_refused("directory", gltf::read(directory.path()), "", "not a regular file");
-    assert_refused("missing", gltf::read(&directory.path().join("no.glb")), "", "cannot be read");
+    assert_refused("missing", gltf::read(&directory.path().join("no.glb")), "", "does not exist");
 }
 
 /// A small file that would become a thousand times a thousand vertices.
