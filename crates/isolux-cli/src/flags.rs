@@ -30,9 +30,21 @@ pub(crate) struct Flags {
     /// Print one JSON value on standard output instead of text
     #[arg(long, global = true)]
     pub json: bool,
+    /// How materials of other formats are read where their letter would make most coloured surfaces of a file invisible
+    #[arg(long, global = true, value_enum, value_name = "HOW", default_value_t = MaterialsName::AsMeant)]
+    pub materials: MaterialsName,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+/// Names of ways to read materials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MaterialsName {
+    /// As opaque, with a warning
+    AsMeant,
+    /// By the letter
+    AsWritten,
 }
 
 /// The subcommands.

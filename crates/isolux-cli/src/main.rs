@@ -72,7 +72,7 @@ mod walk;
 mod walk_export;
 
 use failure::{Failure, Outcome, exit_code};
-use flags::{Command, Flags};
+use flags::{Command, Flags, MaterialsName};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -93,6 +93,9 @@ fn main() -> ExitCode {
 
 fn run(flags: &Flags) -> Result<Outcome, Failure> {
     let json = flags.json;
+    if flags.materials == MaterialsName::AsWritten {
+        source::read_materials_as_written();
+    }
     let threads = match &flags.command {
         Command::Solve(flags) => flags.threads,
         Command::Export(flags) => flags.threads,

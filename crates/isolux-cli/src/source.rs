@@ -6,11 +6,29 @@ use crate::origin::{Extent, Remoteness};
 use crate::trouble::Trouble;
 use isolux::scene::{Scene, SceneParts, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
+use isolux_formats::obj::Materials;
 use isolux_formats::{Loaded, Problem, Problems};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What comes before the name of a scene that is built in.
 const BUILTIN: &str = "builtin:";
+
+/// Whether materials of other formats are read by their letter.
+static MATERIALS_ARE_AS_WRITTEN: AtomicBool = AtomicBool::new(false);
+
+/// From now on materials of other formats are read by their letter.
+pub(crate) fn read_materials_as_written() {
+    MATERIALS_ARE_AS_WRITTEN.store(true, Ordering::Relaxed);
+}
+
+/// How materials of other formats are read.
+fn materials() -> Materials {
+    match MATERIALS_ARE_AS_WRITTEN.load(Ordering::Relaxed) {
+        true => Materials::AsWritten,
+        false => Materials::AsMeant,
+    }
+}
 
 /// Reads a scene to compute light in it, and says on standard error what its reader left out or guessed.
 pub(crate) fn read_scene(source: &Path) -> Result<Scene, Failure> {
@@ -58,7 +76,7 @@ pub(crate) fn is_builtin(source: &Path) -> bool {
 pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
     match source.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {
         Some(name) => built_in(name).map(|value| Loaded { value, warnings: Vec::new() }),
-        None => isolux_formats::load(source).map_err(bad_file),
+        None => isolux_formats::load_with(source, materials()).map_err(bad_file),
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod atomic;
 mod bare;
+mod bounds;
 pub mod cache_file;
 pub mod checkpoint;
 mod counted;
@@ -41,5 +42,5 @@ pub mod walk;
 
 pub use counted::counted;
 pub use digits::{Digits, first_digit, significant, to_decimals};
-pub use load::load;
+pub use load::{load, load_with};
 pub use problem::{Loaded, Problem, Problems};

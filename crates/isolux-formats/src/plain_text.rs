@@ -1,7 +1,7 @@
 //! Plain text of unknown encoding: bounded reading, decoding, lines.
 
 use crate::Problem;
-use crate::source::{SAVE_AS_UTF8, is_utf16, without_mark};
+use crate::source::{from_utf16, without_mark};
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::Read;
@@ -39,11 +39,11 @@ pub(crate) fn read_bounded(path: &Path, most: u64) -> Result<Vec<u8>, Problem> {
     Ok(bytes)
 }
 
-/// The text of a file: UTF-8 with or without a byte order mark, or else Windows-1252, of which
+/// The text of a file: UTF-16 or UTF-8 by its byte order mark, UTF-8 without one, or else Windows-1252, of which
 /// Latin-1 is a part; up to the Ctrl-Z that ends files from DOS.
 pub(crate) fn decode<'a>(bytes: &'a [u8], file: &Path) -> Result<Cow<'a, str>, Problem> {
-    if is_utf16(bytes) {
-        return Err(Problem::new(file, "", "is text in UTF-16, which is not read", SAVE_AS_UTF8));
+    if let Some(text) = from_utf16(bytes) {
+        return decode(text.as_bytes(), file).map(|text| Cow::Owned(text.into_owned()));
     }
     let bytes = without_mark(bytes);
     let end = bytes.iter().position(|&b| b == 0x1a).unwrap_or(bytes.len());
@@ -102,7 +102,8 @@ mod tests {
         assert_eq!(text(b"M\xfcller"), Ok("Müller".into()));
         assert_eq!(text(b"\x80 5 \x96 M\xfc"), Ok("€ 5 – Mü".into()));
         assert_eq!(text(b"one\x1atwo \x00"), Ok("one".into()));
-        assert!(text(b"\xff\xfeI\0E\0S\0").is_err());
+        assert_eq!(text(b"\xff\xfeI\0E\0S\0"), Ok("IES".into()));
+        assert_eq!(text(b"\xfe\xff\0I\0E\0S"), Ok("IES".into()));
         for empty in [&b""[..], b"\r\n \n", b"\xef\xbb\xbf", b"\x1a"] {
             assert_eq!(text(empty).unwrap_err().what, "is empty", "{empty:?}");
         }

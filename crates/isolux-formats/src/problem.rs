@@ -37,7 +37,7 @@ impl Problem {
     pub fn unreadable(path: &Path, error: &io::Error) -> Self {
         let (what, remedy) = match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => {
-                ("does not exist and cannot be read".to_owned(), "check the name")
+                ("does not exist".to_owned(), "check the name and its case")
             }
             ErrorKind::IsADirectory => ("is a directory".to_owned(), "name a file in it"),
             ErrorKind::PermissionDenied => {

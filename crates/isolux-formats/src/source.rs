@@ -37,9 +37,6 @@ pub(crate) fn check_present(path: &Path) -> Result<(), Problem> {
     }
 }
 
-/// What to do about text in UTF-16.
-pub(crate) const SAVE_AS_UTF8: &str = "save it as UTF-8";
-
 /// Whether bytes begin as Windows begins text in UTF-16.
 pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")
@@ -50,18 +47,33 @@ pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
-/// The text of a file; bytes that are not UTF-8 become replacement characters.
+/// The text of a file, as [`decoded`] says.
 pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, Problem> {
-    let bytes = read_bytes(path, limit)?;
-    if is_utf16(&bytes) {
-        return Err(Problem::new(path, "", "is text in UTF-16, which is not read", SAVE_AS_UTF8));
-    }
-    let text = String::from_utf8(bytes)
-        .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
-    Ok(match text.strip_prefix('\u{feff}') {
-        Some(rest) => rest.to_owned(),
-        None => text,
-    })
+    Ok(decoded(read_bytes(path, limit)?))
+}
+
+/// The text of bytes in UTF-8 or, by their mark, UTF-16, with lines that end in a line feed; what is neither becomes replacement
+/// characters.
+pub(crate) fn decoded(bytes: Vec<u8>) -> String {
+    let text = from_utf16(&bytes).unwrap_or_else(|| {
+        String::from_utf8(bytes)
+            .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
+    });
+    let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+    // Programs of the first Macintosh ended lines in a carriage return alone.
+    if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n") } else { text }
+}
+
+/// The text of bytes that begin with the mark of UTF-16, without it.
+pub(crate) fn from_utf16(bytes: &[u8]) -> Option<String> {
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let (pairs, _) = bytes[2..].as_chunks();
+    let units = pairs.iter().map(|&pair| unit(pair));
+    Some(char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect())
 }
 
 /// The directory of a file.
@@ -119,6 +131,20 @@ pub(crate) fn within(root: &Path, base: &Path, name: &str) -> Result<PathBuf, Un
     if real.is_dir() { Err(Unreachable::Directory) } else { Ok(path) }
 }
 
+/// A file whose name differs from a missing one in the case of its letters, as it may on a disk of Windows.
+pub(crate) fn in_other_case(root: &Path, base: &Path, name: &str) -> Option<PathBuf> {
+    let name = name.replace('\\', "/");
+    let relative = Path::new(&name);
+    let wanted = relative.file_name()?.to_str()?;
+    let folder = relative.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let beside = std::fs::read_dir(base.join(folder.unwrap_or(Path::new(".")))).ok()?;
+    let names = beside.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut alike: Vec<String> = names.filter(|own| own.eq_ignore_ascii_case(wanted)).collect();
+    alike.sort_unstable();
+    let found = relative.with_file_name(alike.first()?);
+    within(root, base, found.to_str()?).ok()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -139,12 +165,31 @@ mod tests {
         assert_eq!(reach("C:\\a.txt"), Err(Unreachable::Outside));
         assert_eq!(reach("sub/b.txt"), Err(Unreachable::Missing));
         assert_eq!(reach("sub"), Err(Unreachable::Directory));
+        let other = |name: &str| in_other_case(&root, &root, name);
+        assert_eq!(other("sub\\A.TXT"), Some(root.join("sub/a.txt")));
+        assert_eq!(other("../SECRET.txt"), None);
         assert_eq!(within(&root, &root.join("sub"), "../../secret.txt"), Err(Unreachable::Outside));
         #[cfg(unix)]
         {
             std::os::unix::fs::symlink(outer.path().join("secret.txt"), root.join("l")).unwrap();
             assert_eq!(reach("l"), Err(Unreachable::Outside));
         }
+    }
+
+    #[test]
+    fn text_of_every_encoding() {
+        let text = "v 1 ü\nf 𝄞\n";
+        for (mark, to_bytes) in [
+            (&b"\xff\xfe"[..], u16::to_le_bytes as fn(u16) -> [u8; 2]),
+            (b"\xfe\xff", u16::to_be_bytes),
+        ] {
+            let units: Vec<[u8; 2]> = text.encode_utf16().map(to_bytes).collect();
+            assert_eq!(decoded([mark, units.as_flattened()].concat()), text);
+        }
+        assert_eq!(decoded(format!("\u{feff}{text}").into_bytes()), text);
+        assert_eq!(decoded(b"a\rb\r".to_vec()), "a\nb\n");
+        assert_eq!(decoded(b"a\r\nb\rc".to_vec()), "a\r\nb\rc");
+        assert_eq!(decoded(b"\xff\xfe\0\xd8a".to_vec()), "\u{fffd}");
     }
 
     #[test]
@@ -156,9 +201,9 @@ mod tests {
         assert!(read_bytes(&path, 16).unwrap_err().what.contains("larger"));
         assert!(read_bytes(dir.path(), 16).unwrap_err().what.contains("regular"));
         let missing = read_bytes(&dir.path().join("b"), 16).unwrap_err().to_string();
-        assert!(missing.ends_with("b: does not exist and cannot be read; check the name"));
+        assert!(missing.ends_with("b: does not exist; check the name and its case"));
         assert!(check_present(&path).is_ok());
-        let none = "does not exist and cannot be read";
+        let none = "does not exist";
         for (name, what) in [("b", none), ("a/b", none), ("", "is a directory")] {
             assert_eq!(check_present(&dir.path().join(name)).unwrap_err().what, what, "{name}");
         }

@@ -386,3 +386,24 @@ fn a_link_out_of_the_directory_is_refused() {
     let told = "lamp.ies: line 5: the file of TILT=link.tlt is a link to another directory";
     assert!(refusal.contains(told), "{refusal}");
 }
+
+/// The message spoke of planes, in the order of the code, and a warning of a mirror image of one angle.
+#[test]
+fn one_horizontal_angle_of_type_b_is_told_in_the_words_of_the_file() {
+    for (kind, name) in [(2, "B"), (3, "A")] {
+        let text = format!(
+            "IESNA:LM-63-2002\n[TEST] x\n[MANUFAC] y\nTILT=NONE\n1 -1 1 3 1 {kind} 2 0 0 0 1 1 10\n\
+             -90 0 90\n0\n0 100 0\n"
+        );
+        let loaded = parsed(text.as_bytes());
+        assert!(
+            !loaded.warnings.iter().any(|w| w.what.contains("mirrored")),
+            "{:?}",
+            loaded.warnings
+        );
+        let problem = loaded.value.resolve().unwrap_err();
+        let due = format!("1 horizontal angle beside 3 vertical in a table of type {name}");
+        assert!(problem.what.contains(&due), "{problem}");
+        assert_eq!(problem.place, "line 7");
+    }
+}

@@ -63,7 +63,7 @@ fn anything_else_is_refused_with_what_is_read() {
         "none.xml",
     ] {
         let message = load(Path::new(name)).unwrap_err().to_string();
-        assert!(message.contains(name) && message.contains("read"), "{message}");
+        assert!(message.contains(name) && message.contains("does not exist; check"), "{message}");
     }
 }
 
@@ -121,4 +121,97 @@ fn what_reflects_all_light_is_held_and_named() {
         assert!(material.name != "silver" || finish.mirror.max_channel() == 1.0);
     }
     assert!(load(&path).unwrap().value.clone().hold_reflectances().is_empty(), "once is enough");
+}
+
+/// A scene in each format whose light has a level that is still to be written.
+const LIT: &[(&str, &str)] = &[
+    ("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl lamp\nf 1 2 3\n"),
+    ("a.rad", "void light lamp 0 0 3 LEVEL LEVEL LEVEL\nlamp polygon f 0 0 9 0 0 0 1 0 0 0 1 0\n"),
+    (
+        "a.xml",
+        "<scene version='3.0.0'><shape type='rectangle' id='lamp'><emitter type='area'>\
+         <rgb name='radiance' value='LEVEL'/></emitter></shape></scene>",
+    ),
+    (
+        "point.xml",
+        "<scene version='3.0.0'><shape type='rectangle'/><emitter type='point' id='lamp'>\
+         <rgb name='intensity' value='LEVEL'/></emitter></scene>",
+    ),
+    (
+        "a.toml",
+        "[materials.lamp]\nluminance_cd_m2 = LEVEL\n[[geometry]]\nmaterial = 'lamp'\n\
+         rectangle = { corner = [0,0,0], u = [1,0,0], v = [0,1,0] }\n",
+    ),
+];
+
+/// Regression: `Ke 1e308` came to a flux of inf lm and about NaN lx, and all was well.
+#[test]
+fn light_that_nothing_gives_is_refused_where_it_is() {
+    let dir = tempfile::tempdir().unwrap();
+    for (name, text) in LIT {
+        let read = |level: &str| {
+            let path = dir.path().join(name);
+            std::fs::write(&path, text.replace("LEVEL", level)).unwrap();
+            std::fs::write(dir.path().join("a.mtl"), format!("newmtl lamp\nKd 0\nKe {level}\n"))
+                .unwrap();
+            load(&path)
+        };
+        read("1e6").unwrap_or_else(|p| panic!("{name}: {p}"));
+        for level in ["1e13", "1e300"] {
+            let message = read(level).map(|_| ()).unwrap_err().to_string();
+            assert!(message.contains("lamp") && message.contains("are read"), "{name}: {message}");
+        }
+    }
+}
+
+/// No file of any format opens another outside of its folder, also not by a link.
+#[cfg(unix)]
+#[test]
+fn names_in_files_do_not_lead_outside() {
+    let outer = tempfile::tempdir().unwrap();
+    let home = outer.path().join("scene");
+    std::fs::create_dir(&home).unwrap();
+    for (name, text) in [
+        ("secret.mtl", "newmtl m\nKd 0.123\n"),
+        ("secret.rad", "void plastic m 0 0 5 .1 .1 .1 0 0\nm polygon f 0 0 9 0 0 0 1 0 0 0 1 0\n"),
+        ("secret.xml", "<scene version='3.0.0'><shape type='rectangle'/></scene>"),
+        ("secret.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("secret.txt", "-t 0 0 1\n"),
+        ("secret.bin", "0123456789012345678901234567890123456789"),
+    ] {
+        std::fs::write(outer.path().join(name), text).unwrap();
+        std::os::unix::fs::symlink(outer.path().join(name), home.join(format!("link_{name}")))
+            .unwrap();
+    }
+    let face = "polygon f 0 0 9 0 0 0 1 0 0 0 1 0";
+    let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"NAME.bin"}]}"#;
+    let scenes = [
+        ("a.rad", "!xform NAME.rad\n".to_owned()),
+        ("b.rad", format!("void plastic m 0 0 5 .1 .1 .1 0 0\nm {face}\n!genbox m b 1 1 1 | xform -f NAME.txt\n")),
+        ("a.xml", "<scene version='3.0.0'><include filename='NAME.xml'/></scene>".into()),
+        ("b.xml", "<scene version='3.0.0'><shape type='obj'><string name='filename' value='NAME.obj'/></shape></scene>".into()),
+        ("a.toml", "[materials.m]\ndiffuse = 0.5\n[[geometry]]\nmaterial = 'm'\nfile = 'NAME.obj'\n".into()),
+        ("a.gltf", gltf.to_owned()),
+    ];
+    let absolute = outer.path().join("secret").display().to_string();
+    for name in [
+        "../secret",
+        "link_secret",
+        absolute.as_str(),
+        "sub/../../secret",
+        "http://example.org/secret",
+    ] {
+        for (file, text) in &scenes {
+            let path = home.join(file);
+            std::fs::write(&path, text.replace("NAME", name)).unwrap();
+            assert!(load(&path).is_err(), "{file}: {name}");
+        }
+        // What an OBJ file names may be missing; it is not read.
+        let path = home.join("a.obj");
+        let text = format!("mtllib {name}.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+        std::fs::write(&path, text).unwrap();
+        let parts = load(&path).unwrap().value;
+        let colour = parts.materials[0].finish(false).unwrap().diffuse.colour;
+        assert_ne!(colour.0[0], 0.123, "{name}");
+    }
 }

@@ -4,7 +4,9 @@
 
 use isolux::scene::{Body, Scene, SceneParts, UpAxis};
 use isolux::units::Rgb;
-use isolux_formats::{Loaded, Problems, obj};
+use isolux_formats::obj::{self, Materials};
+use isolux_formats::{Loaded, Problems};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 fn scenes() -> PathBuf {
@@ -178,6 +180,110 @@ fn mtl_properties() {
     assert!(opaque("Kd 0.5\nPr 0.3\nmap_Bump x.png").1.contains("`Pr`, `map_Bump`"));
     // Regression: refused, though programs that know no index write 0 everywhere.
     assert!(opaque("Kd 0.5\nNi 0").1.contains("`Ni 0`"));
+}
+
+/// The bodies and warnings of a library, by name, read as meant or as written.
+fn library(mtl: &str, materials: Materials) -> (HashMap<String, Body>, Vec<String>) {
+    let names: Vec<&str> = mtl.lines().filter_map(|line| line.strip_prefix("newmtl ")).collect();
+    let faces: String = (0..).zip(&names).fold(String::new(), |text, (k, name)| {
+        let corners = format!("v 0 0 {k}\nv 1 0 {k}\nv 0 1 {k}\n");
+        text + &corners + &format!("usemtl {name}\nf -3 -2 -1\n")
+    });
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("thing.obj");
+    std::fs::write(&path, format!("mtllib thing.mtl\n{faces}")).unwrap();
+    std::fs::write(dir.path().join("thing.mtl"), mtl).unwrap();
+    let loaded = obj::read_with(&path, materials).unwrap();
+    let bodies = loaded.value.materials.into_iter().map(|m| (m.name, m.body)).collect();
+    (bodies, loaded.warnings.iter().map(ToString::to_string).collect())
+}
+
+const MAYA: &str = "illum 4\nKd 0.50 0.50 0.50\nKa 0 0 0\nTf 1.00 1.00 1.00\nNi 1.00\n";
+
+/// What each program writes for opaque materials, with the names of those that are opaque, and of those that are glass.
+const WRITERS: &[(&str, &[&str], &[&str])] = &[
+    // Maya: a whole room was glass.
+    ("newmtl a\n{maya}", &["a"], &[]),
+    (
+        "newmtl a\n{maya}newmtl b\n{maya}newmtl g\nillum 4\nKd 0 0 0\nTf 0.1 0.1 0.1\nNi 1.0\n",
+        &["a", "b"],
+        &["g"],
+    ),
+    ("newmtl a\n{maya}newmtl g\nillum 4\nKd 0 0 0\nTf 0.9 0.9 0.9\nNi 1.5\n", &["a"], &["g"]),
+    // MeshLab and OpenMVS.
+    ("newmtl a\nKd 0.5\nTr 1.000000\nillum 2\n", &["a"], &[]),
+    (
+        "newmtl a\nKd 0.5\nTr 1\nnewmtl b\nKd 0.2\nTr 1\nnewmtl g\nKd 1\nTr 0.3\n",
+        &["a", "b"],
+        &["g"],
+    ),
+    // Most agree with the letter, so it counts.
+    ("newmtl a\nKd 0.5\nTr 0\nnewmtl b\nKd 0.2\nTr 0\nnewmtl g\nKd 1\nTr 1\n", &["a", "b"], &["g"]),
+    ("newmtl a\nKd 0.5\nd 0\nnewmtl b\nKd 0.2\nd 0.0\n", &["a", "b"], &[]),
+    ("newmtl a\nKd 0.5\nd 1\nnewmtl b\nKd 0.2\nd 1\nnewmtl g\nKd 1\nd 0\n", &["a", "b"], &["g"]),
+    (
+        "newmtl a\nKd 0.5\nillum 7\nnewmtl b\nKd 0.5\nillum 7\nnewmtl c\nKd 0.5\nillum 7\n",
+        &["a", "b", "c"],
+        &[],
+    ),
+    // One of glass among others.
+    ("newmtl a\nKd 0.5\nillum 2\nnewmtl g\nKd 0.5\nillum 7\nNi 1.5\n", &["a"], &["g"]),
+];
+
+#[test]
+fn materials_are_what_their_writers_mean() {
+    for (mtl, opaque, glass) in WRITERS {
+        let mtl = mtl.replace("{maya}", MAYA);
+        let (bodies, warnings) = library(&mtl, Materials::AsMeant);
+        for name in *opaque {
+            let Body::Opaque { front, .. } = &bodies[*name] else { panic!("{name} of {mtl}") };
+            assert!(!front.diffuse.colour.is_black(), "{name} of {mtl}");
+        }
+        for name in *glass {
+            assert!(matches!(bodies[*name], Body::Dielectric(_)), "{name} of {mtl}");
+        }
+        let (letter, _) = library(&mtl, Materials::AsWritten);
+        if letter != bodies {
+            assert!(warnings.iter().any(|w| w.contains("as-written")), "{mtl}: {warnings:?}");
+        }
+    }
+    let (letter, warnings) = library(&format!("newmtl a\n{MAYA}"), Materials::AsWritten);
+    let Body::Dielectric(pane) = &letter["a"] else { panic!("{letter:?}") };
+    assert_eq!((pane.ior, pane.transmittance), (1.0, Rgb::WHITE));
+    assert!(warnings[0].contains("of index 1, transmitting 1 1 1"), "{warnings:?}");
+}
+
+#[test]
+fn a_missing_library_is_looked_for() {
+    for (statement, file, told) in [
+        ("mtllib Thing.MTL\n", "thing.mtl", "`thing.mtl` is read"),
+        ("mtllib gone.mtl\n", "thing.mtl", "`thing.mtl` is read"),
+        ("mtllib C:\\work\\gone.mtl\n", "THING.mtl", "`THING.mtl` is read"),
+        ("", "thing.mtl", "`thing.mtl` is read"),
+    ] {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("thing.obj");
+        std::fs::write(&path, TRIANGLE.replace("mtllib thing.mtl\n", statement)).unwrap();
+        std::fs::write(dir.path().join(file), "newmtl m\nKd 0.7\n").unwrap();
+        let loaded = obj::read(&path).unwrap();
+        let colour = loaded.value.materials[0].finish(false).unwrap().diffuse.colour;
+        assert_eq!(colour, Rgb::grey(0.7), "{statement}");
+        assert!(loaded.warnings.iter().any(|w| w.what.contains(told)), "{:?}", loaded.warnings);
+    }
+}
+
+#[test]
+fn colours_of_vertices_are_told() {
+    let text = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n";
+    let warnings = read_text(text, "").unwrap().warnings;
+    assert!(warnings.iter().any(|w| w.what.contains("colours of 3 vertices")), "{warnings:?}");
+    assert!(
+        !read_text("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n", "")
+            .unwrap()
+            .warnings
+            .iter()
+            .any(|w| w.what.contains("colours"))
+    );
 }
 
 #[test]

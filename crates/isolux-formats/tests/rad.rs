@@ -263,7 +263,7 @@ fn what_is_not_read_is_named_with_its_line() {
     for (text, expected) in [
         (
             "void mixfunc x 4 a b c d 0 0\nx polygon f 0 0 9 0 0 0 1 0 0 0 1 0\n",
-            "line 1: mixfunc `x`",
+            "line 1: modifier `a` is not defined",
         ),
         ("void antimatter x 1 void 0 0\nx sphere s 0 0 4 0 0 0 1\n", "line 1: antimatter `x`"),
         ("void plastic m 0 0 5 .5 .5 .5 0 0\nm mesh a 1 a.rtm 0 0\n", "line 2: mesh `a`"),
@@ -298,6 +298,63 @@ fn what_is_not_read_is_named_with_its_line() {
     }
     let pattern = format!("void brightfunc p 2 f c.cal 0 0\np light l 0 0 3 1 1 1\nl {FACE}");
     refused(&pattern, "patterns of lights are not read");
+}
+
+/// From the museum of `radiance_taj`: its lamps hang where the lines of a file say.
+#[test]
+fn places_from_the_lines_of_a_file() {
+    let patch = format!("void plastic m 0 0 5 .5 .5 .5 0 0\nm {FACE}");
+    let places = "-t 0 0 2\n# second\n\nxform -rz 90 -t 2 2 2\n";
+    let files = [("patch.rad", patch.as_str()), ("pos.txt", places)];
+    let loaded = read_with("!xform -f pos.txt patch.rad\n", &files).unwrap();
+    let parts = loaded.value;
+    let positions: Vec<_> = parts.shapes.iter().flat_map(|s| &s.positions).copied().collect();
+    let due = [
+        [0.0, 0.0, 2.0],
+        [1.0, 0.0, 2.0],
+        [0.0, 1.0, 2.0],
+        [2.0, 2.0, 2.0],
+        [2.0, 3.0, 2.0],
+        [1.0, 2.0, 2.0],
+    ];
+    assert_eq!(positions, due);
+    refused("!xform -f gone.txt patch.rad\n", "gone.txt");
+    refused("!xform -f ../../../../etc/passwd patch.rad\n", "lies outside");
+    refused_with("!xform -f a patch.rad\n", &[("a", "-f a")], "nested more than");
+}
+
+#[test]
+fn mixtures_count_by_their_mean() {
+    let made = |kind: &str, names: &str, more: &str| {
+        let text = format!(
+            "void plastic a 0 0 5 .8 .8 .8 0 0\nvoid plastic b 0 0 5 .2 .4 .6 0 0\n\
+             void glass g 0 0 3 .9 .9 .9\n{more}void {kind} x 4 {names} f f.cal 0 0\nx {FACE}"
+        );
+        read_with(&text, &[])
+    };
+    for kind in ["mixfunc", "mixdata", "mixpict", "mixtext"] {
+        let loaded = made(kind, "a b", "").unwrap();
+        let front = loaded.value.materials[0].finish(true).unwrap();
+        for (found, due) in front.diffuse.colour.0.iter().zip([0.5, 0.6, 0.7]) {
+            near(*found, due);
+        }
+        let told = loaded.warnings[0].to_string();
+        assert!(
+            told.contains(&format!("line 4: {kind} `x` is read as half `a`, half `b`")),
+            "{told}"
+        );
+    }
+    let holed = made("mixfunc", "a void", "").unwrap();
+    near(holed.value.materials[0].finish(true).unwrap().diffuse.colour.0[0], 0.8);
+    assert!(holed.warnings[0].what.contains("has holes"));
+    let nested = made("mixfunc", "a y", "void mixfunc y 4 b void f f.cal 0 0\n").unwrap();
+    near(nested.value.materials[0].finish(true).unwrap().diffuse.colour.0[0], 0.5);
+    let refused = made("mixfunc", "a g", "").unwrap_err().to_string();
+    assert!(refused.contains("mixes what light passes"), "{refused}");
+    let deep: String =
+        (0..20).map(|k| format!("void mixfunc m{} 4 m{k} m{k} f f.cal 0 0\n", k + 1)).collect();
+    let text = format!("void plastic m0 0 0 5 .8 .8 .8 0 0\n{deep}m20 {FACE}");
+    self::refused(&text, "lies in more than 8 others");
 }
 
 #[test]

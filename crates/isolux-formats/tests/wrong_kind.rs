@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
-use isolux_formats::{Problem, Problems, gltf, ies, ldt, map_glb, obj, ply, stl};
+use isolux_formats::{
+    Problem, Problems, gltf, ies, ldt, map_glb, mitsuba, obj, ply, rad, scene_toml, stl,
+};
 use std::fs;
 use std::path::Path;
 
@@ -64,10 +66,41 @@ fn version_1_of_gltf_as_a_number_was_said_to_be_faulty_json() {
 
 #[test]
 fn text_in_utf_16_was_said_to_hold_nothing() {
-    let found = only_problem(in_file(b"\xfe\xff\x00v\x00 \x001", obj::read));
-    assert!(found.what.contains("UTF-16"), "{found}");
-    let lamp = ies::parse(b"\xff\xfeI\0E\0", Path::new("lamp.ies"), &mut |_| unreachable!());
-    assert!(only_problem(lamp).what.contains("UTF-16"));
+    let wide = |text: &str| {
+        let units: Vec<_> = text.encode_utf16().map(u16::to_le_bytes).collect();
+        [b"\xff\xfe", units.as_flattened()].concat()
+    };
+    let obj = wide("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n");
+    assert_eq!(in_file(&obj, obj::read).unwrap().value.shapes.len(), 1);
+    let stl = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n\
+               endfacet\nendsolid s\n";
+    assert_eq!(in_file(&wide(stl), stl::read).unwrap().value.shapes.len(), 1);
+    let rad = wide("void plastic m 0 0 5 .5 .5 .5 0 0\nm polygon f 0 0 9 0 0 0 1 0 0 0 1 0\n");
+    assert_eq!(in_file(&rad, rad::read).unwrap().value.shapes.len(), 1);
+    let xml = wide(
+        "<?xml version='1.0' encoding='UTF-16'?><scene version='3.0.0'><shape type='rectangle'/></scene>",
+    );
+    assert_eq!(in_file(&xml, mitsuba::read).unwrap().value.shapes.len(), 1);
+    let toml = wide(
+        "[materials.m]\ndiffuse = 0.5\n[[geometry]]\nmaterial = 'm'\nrectangle = { corner = [0,0,0], u = [0,2,0], v = [0,0,3] }\n",
+    );
+    in_file(&toml, scene_toml::read).unwrap();
+    let lamp =
+        ies::parse(&wide("IESNA:LM-63-2002\n"), Path::new("lamp.ies"), &mut |_| unreachable!());
+    assert!(!only_problem(lamp).what.contains("UTF-16"));
+}
+
+/// Files of the first Macintosh, and of programs that still write as it did, were said to have no faces.
+#[test]
+fn a_carriage_return_alone_ended_no_line() {
+    let obj = "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r";
+    assert_eq!(in_file(obj.as_bytes(), obj::read).unwrap().value.shapes.len(), 1);
+    let stl = "solid s\rfacet normal 0 0 1\router loop\rvertex 0 0 0\rvertex 1 0 0\rvertex 0 1 0\rendloop\r\
+               endfacet\rendsolid s\r";
+    assert_eq!(in_file(stl.as_bytes(), stl::read).unwrap().value.shapes.len(), 1);
+    let rad =
+        "# a comment\rvoid plastic m 0 0 5 .5 .5 .5 0 0\rm polygon f 0 0 9 0 0 0 1 0 0 0 1 0\r";
+    assert_eq!(in_file(rad.as_bytes(), rad::read).unwrap().value.shapes.len(), 1);
 }
 
 #[test]

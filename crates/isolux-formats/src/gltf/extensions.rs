@@ -24,17 +24,42 @@ const KNOWN: &[&str] = &[
     "KHR_node_visibility",
     "KHR_texture_transform",
 ];
+/// What they say is of no account to light at rest, so that a file may require them.
+const OF_NO_LIGHT: &[&str] = &[
+    "CESIUM_primitive_outline",
+    "EXT_instance_features",
+    "EXT_mesh_features",
+    "EXT_mesh_manifold",
+    "EXT_structural_metadata",
+    "FB_ngon_encoding",
+    "KHR_animation_pointer",
+    "KHR_audio_emitter",
+    "KHR_interactivity",
+    "KHR_materials_variants",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_physics_rigid_bodies",
+    "KHR_xmp_json_ld",
+    "MSFT_lod",
+];
 const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+/// Whether an extension is read.
+pub(super) fn is_known(name: &str) -> bool {
+    KNOWN.contains(&name)
+}
 
 /// Refuses what is required and unknown; warns of what is used and unknown.
 pub(super) fn check(root: &Root, notes: &mut Notes) {
-    let unknown = |name: &&String| !KNOWN.contains(&name.as_str());
+    let unknown = |name: &&String| !is_known(name);
     let required = &root.extensions_required;
-    for name in required.iter().filter(unknown) {
+    let is_needed = |name: &&String| !OF_NO_LIGHT.contains(&name.as_str());
+    for name in required.iter().filter(unknown).filter(is_needed) {
         let what = format!("the extension {name} is required and not supported");
         notes.problem(Flaw::new(what, remedy(name)).at("extensionsRequired"));
     }
-    for name in root.extensions_used.iter().filter(unknown).filter(|n| !required.contains(n)) {
+    let is_refused = |name: &&String| required.contains(name) && is_needed(name);
+    for name in root.extensions_used.iter().filter(unknown).filter(|name| !is_refused(name)) {
         let what = format!("the extension {name} is not supported; what it says is left out");
         notes.warn(Flaw::new(what, remedy(name)).at("extensionsUsed"));
     }

@@ -37,6 +37,7 @@ mod skin;
 mod specular_gloss;
 mod surfaces;
 mod texcoord;
+mod thinned;
 mod topology;
 mod unpacked;
 mod uri;

@@ -1,11 +1,12 @@
 //! From JSON text to the file as written.
 
-use super::limits;
 use super::notes::Flaw;
+use super::{extensions, limits, thinned};
 use gltf_json::Root;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
-use serde_json::Value;
+use serde_json::{Map, Value};
+use std::collections::HashSet;
 use std::fmt;
 
 /// Reads the JSON, without judging what it refers to.
@@ -18,20 +19,27 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, Flaw> {
     }
     survey(json).map_err(|error| flaw(&error))?;
     check_version(json)?;
-    let root = serde_json::from_slice(json).map_err(|error| flaw(&error))?;
-    refuse_map(&root)?;
-    Ok(root)
+    if let Ok(root) = serde_json::from_slice::<Root>(json) {
+        refuse_map(root.extras.as_deref().and_then(|raw| serde_json::from_str(raw.get()).ok()))?;
+        return Ok(root);
+    }
+    let members: Map<String, Value> = serde_json::from_slice(json).map_err(|error| flaw(&error))?;
+    refuse_map(members.get("extras").cloned())?;
+    thinned::root(members)
 }
 
 /// A map's materials are made for viewers: solved again they would say that there is no light, or, of a lightmap, that all
 /// surfaces shine.
-fn refuse_map(root: &Root) -> Result<(), Flaw> {
-    let extras = root.extras.as_deref().map(|raw| serde_json::from_str(raw.get()));
-    let Some(Ok::<Marks, _>(Marks { isolux, isolux_lightmap })) = extras else { return Ok(()) };
+fn refuse_map(extras: Option<Value>) -> Result<(), Flaw> {
+    let Some(Value::Object(extras)) = extras else { return Ok(()) };
     // What was baked onto a scene of somebody's is still that scene.
-    let is_baked = isolux_lightmap.is_some_and(|note| note.get("onto").is_none());
+    let is_baked = extras.get("isolux_lightmap").is_some_and(|note| note.get("onto").is_none());
     for (key, is_there, what) in [
-        ("isolux", isolux.is_some(), "is an illumination map, no scene"),
+        (
+            "isolux",
+            extras.get("isolux").is_some_and(|note| !note.is_null()),
+            "is an illumination map, no scene",
+        ),
         ("isolux_lightmap", is_baked, "is a scene with its light baked in, no scene to light"),
     ] {
         if is_there {
@@ -40,13 +48,6 @@ fn refuse_map(root: &Root) -> Result<(), Flaw> {
         }
     }
     Ok(())
-}
-
-/// What isolux notes in files that it writes.
-#[derive(Deserialize)]
-struct Marks {
-    isolux: Option<IgnoredAny>,
-    isolux_lightmap: Option<Value>,
 }
 
 fn flaw(error: &serde_json::Error) -> Flaw {
@@ -120,13 +121,20 @@ enum Holds {
     Index,
     /// An object all of whose members are indices.
     IndexMap,
+    /// An object whose members are extensions by name.
+    Extensions,
+    /// What an extension says that is not read.
+    Unknown,
     Other,
 }
 
 impl Holds {
     fn below(self, key: &str) -> Self {
         match key {
+            _ if self == Self::Unknown => Self::Unknown,
+            _ if self == Self::Extensions && !extensions::is_known(key) => Self::Unknown,
             _ if self == Self::IndexMap => Self::Index,
+            "extensions" => Self::Extensions,
             "attributes" | "targets" => Self::IndexMap,
             "buffer"
             | "bufferView"
@@ -187,7 +195,11 @@ impl<'de> Visitor<'de> for Survey<'_> {
         if self.counts.objects > limits::JSON_OBJECTS {
             return Err(A::Error::custom(format!("more than {} objects", limits::JSON_OBJECTS)));
         }
+        let mut keys = HashSet::new();
         while let Some(key) = map.next_key::<String>()? {
+            if !keys.insert(key.clone()) {
+                return Err(A::Error::custom(format!("duplicate field `{key}`")));
+            }
             if key == "extras" {
                 map.next_value::<IgnoredAny>()?;
             } else {
@@ -213,7 +225,10 @@ impl<'de> Visitor<'de> for Survey<'_> {
     fn visit_i64<E: Error>(self, _: i64) -> Result<(), E> {
         Ok(())
     }
-    fn visit_f64<E: Error>(self, _: f64) -> Result<(), E> {
+    fn visit_f64<E: Error>(self, value: f64) -> Result<(), E> {
+        if self.holds == Holds::Index && value > f64::from(u32::MAX) {
+            return Err(E::custom(format!("the index {value} does not fit 32 bits")));
+        }
         Ok(())
     }
     fn visit_bool<E: Error>(self, _: bool) -> Result<(), E> {

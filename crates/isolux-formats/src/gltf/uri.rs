@@ -1,6 +1,7 @@
 //! References to data: inside the JSON, or in a file beside it (glTF 2.0, section 2.8).
 
 use super::notes::Flaw;
+use crate::Problem;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
@@ -54,8 +55,8 @@ pub(super) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, Flaw> {
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> Flaw {
-    let what = format!("cannot read {}: {error}", path.display());
-    Flaw::new(what, "check that the file is there and may be read")
+    let Problem { what, remedy, .. } = Problem::unreadable(path, error);
+    Flaw::new(format!("file `{}` {what}", path.display()), remedy)
 }
 
 fn outside(uri: &str) -> Flaw {

@@ -18,7 +18,8 @@ fn both_sides(angles_deg: &[f64]) -> Vec<(f64, usize)> {
 
 /// Which of the lists are mirrored at the aim: horizontal, vertical.
 pub(super) fn mirrored(record: &IesFile) -> [bool; 2] {
-    [&record.horizontal_deg, &record.vertical_deg].map(|angles| angles.first() == Some(&0.0))
+    let is_mirrored = |angles: &Vec<f64>| angles.len() > 1 && angles[0] == 0.0;
+    [&record.horizontal_deg, &record.vertical_deg].map(is_mirrored)
 }
 
 /// The table as a web, every intensity times a factor.

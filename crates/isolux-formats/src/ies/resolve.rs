@@ -2,8 +2,8 @@
 
 use super::audit;
 use super::{IesFile, PhotometricType, across};
-use crate::Problem;
-use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry};
+use crate::{Problem, counted};
+use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry, WebError};
 use std::sync::Arc;
 
 impl IesFile {
@@ -28,10 +28,29 @@ impl IesFile {
         } else {
             across::web(self, factor)
         };
-        let web = web.map_err(|error| {
-            self.problem(self.lines.vertical, error.to_string(), "correct the table")
-        })?;
+        let web = web.map_err(|error| self.no_web(&error))?;
         Ok(IntensityDistribution::Web(Arc::new(web)))
+    }
+
+    /// Why the table is no distribution, in the words of the standard.
+    fn no_web(&self, error: &WebError) -> Problem {
+        let WebError::TooFewAngles { .. } = error else {
+            return self.problem(self.lines.vertical, error.to_string(), "correct the table");
+        };
+        let [horizontal, vertical] = [self.horizontal_deg.len(), self.vertical_deg.len()];
+        let what = format!(
+            "{} beside {} vertical in a table of type {:?}, which spans no part of space",
+            counted(horizontal, "horizontal angle", "horizontal angles"),
+            vertical,
+            self.photometric_type
+        );
+        let remedy = match self.photometric_type {
+            PhotometricType::C => "give at least two vertical angles",
+            PhotometricType::A | PhotometricType::B => {
+                "give at least two of each; one horizontal angle alone is for type C"
+            }
+        };
+        self.problem(self.lines.horizontal, what, remedy)
     }
 
     /// Which part of the circle the horizontal angles of type C give.

@@ -4,7 +4,7 @@ use super::audit;
 use super::{LampSet, LdtFile, LdtSymmetry};
 use crate::Problem;
 use crate::ies::LuminousOpening;
-use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry};
+use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry, WebError};
 use std::sync::Arc;
 
 impl LdtSymmetry {
@@ -85,7 +85,15 @@ impl LdtFile {
         };
         let web = PhotometricWeb::with_symmetry(planes, self.gammas_deg.clone(), candela, symmetry);
         let web = web.map_err(|error| {
-            self.problem(self.lines.planes, error.to_string(), "correct the table")
+            let what = match error {
+                WebError::TooFewAngles { planes, gammas, .. } => {
+                    format!(
+                        "{planes} C planes of {gammas} gamma angles, which span no part of space"
+                    )
+                }
+                other => other.to_string(),
+            };
+            self.problem(self.lines.planes, what, "correct the table")
         })?;
         Ok(IntensityDistribution::Web(Arc::new(web)))
     }

@@ -83,7 +83,11 @@ impl Files {
             let read = if is_obj {
                 obj::read_as(
                     &path,
-                    &obj::Reading { unit_is_known: true, is_replaced: &is_replaced },
+                    &obj::Reading {
+                        unit_is_known: true,
+                        is_replaced: &is_replaced,
+                        materials: obj::Materials::AsMeant,
+                    },
                 )
             } else {
                 let reading = bare::Reading {

@@ -17,6 +17,7 @@ mod reader;
 mod record;
 mod scope;
 mod sensor;
+mod spectral;
 mod spectrum;
 mod substances;
 mod surroundings;

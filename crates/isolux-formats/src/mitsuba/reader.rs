@@ -52,6 +52,7 @@ pub(super) fn read(
         visits_left: limits::SHAPES,
         triangles: 0,
         idle: Vec::new(),
+        lamps: Vec::new(),
     };
     for element in &root.children {
         if reader.element(element).is_none() && reader.is_full() {
@@ -77,12 +78,16 @@ struct Reader<'a, 'r, 'n> {
     triangles: usize,
     /// What makes pictures, and no light.
     idle: Vec<&'a Element>,
+    /// Area emitters that stand outside of shapes.
+    lamps: Vec<&'a Element>,
 }
 
 impl<'a> Reader<'a, '_, '_> {
     fn element(&mut self, element: &'a Element) -> Option<()> {
         match element.tag.as_str() {
             "shape" => return self.shape(element, &Transform::IDENTITY, 0),
+            // Looked at where a shape refers to it.
+            "emitter" if element.kind() == "area" => self.lamps.push(element),
             "emitter" => return self.emitter(element),
             "sensor" => self.sensor(element),
             "integrator" | "sampler" | "film" => self.idle.push(element),
@@ -323,6 +328,10 @@ impl<'a> Reader<'a, '_, '_> {
 
     fn finish(mut self, path: &Path) -> SceneParts {
         self.refuse_sky_with_sun();
+        for lamp in self.lamps.iter().filter(|lamp| !lamp.is_used.get()) {
+            let remedy = "refer to it from a shape by <ref>, or remove it";
+            self.scope.warn(lamp, "lights nothing, as no shape refers to it", remedy);
+        }
         if let Some(first) = self.idle.first() {
             let mut labels: Vec<String> = self.idle.iter().map(|idle| idle.label()).collect();
             labels.sort();

@@ -1,10 +1,11 @@
 //! MTL records into materials.
 
 use super::lines::place;
-use super::mtl;
+use super::reading::Reading;
 use super::record::{MtlMaterial, Named, ObjFile};
+use super::{libraries, meaning, mtl};
 use crate::findings::Findings;
-use crate::{Loaded, Problem, picture, source};
+use crate::{Loaded, Problem, Problems, picture, source};
 use isolux::scene::{Body, Dielectric, Finish, Material, Texture};
 use isolux::units::Rgb;
 use std::collections::HashMap;
@@ -30,72 +31,58 @@ pub(super) struct Materials {
 /// Reads the material libraries of a file and makes materials of those it uses and nothing replaces.
 pub(super) fn read_libraries(
     file: &ObjFile,
-    is_replaced: &dyn Fn(&str) -> bool,
+    reading: &Reading,
     findings: &mut Findings,
 ) -> Materials {
     let root = source::directory_of(findings.file()).to_owned();
     let root = root.as_path();
     let mut known: HashMap<String, (PathBuf, MtlMaterial)> = HashMap::new();
-    for library in &file.libraries {
-        for path in library_paths(root, library, findings) {
-            let mut own = Findings::new(&path);
-            let list = match source::read_text(&path, MOST_BYTES) {
-                Ok(text) => mtl::parse(&text, &mut own),
-                Err(problem) => {
-                    findings.absorb::<()>(Err(problem.into()));
-                    continue;
-                }
-            };
-            for material in findings.absorb(own.finish(list)).unwrap_or_default() {
-                known.insert(material.name.clone(), (path.clone(), material));
-            }
+    for path in libraries::paths(root, file, findings) {
+        for material in findings.absorb(library(&path, reading.materials)).unwrap_or_default() {
+            known.insert(material.name.clone(), (path.clone(), material));
         }
     }
-    let mut reader = Reader {
+    let mut maker = Maker {
         glossy: None,
         root,
-        is_replaced,
+        reading,
         known,
         made: HashMap::new(),
         pictures: HashMap::new(),
         materials: Materials::default(),
     };
     for part in &file.parts {
-        let index = reader.material(part.material.as_ref(), findings);
-        reader.materials.of_part.push(index);
+        let index = maker.material(part.material.as_ref(), findings);
+        maker.materials.of_part.push(index);
     }
-    if let Some(glossy) = reader.glossy.take() {
+    if let Some(glossy) = maker.glossy.take() {
         findings.absorb::<()>(Ok(Loaded { value: (), warnings: vec![glossy.warning()] }));
     }
-    reader.materials
+    maker.materials
 }
 
-/// `mtllib` names one file, blanks included, or several separated by blanks.
-fn library_paths(root: &Path, library: &Named, findings: &mut Findings) -> Vec<PathBuf> {
-    if let Ok(path) = source::within(root, root, &library.name) {
-        return vec![path];
-    }
-    let mut paths = Vec::new();
-    for name in library.name.split_whitespace() {
-        match source::within(root, root, name) {
-            Ok(path) => paths.push(path),
-            Err(why) => {
-                let (what, remedy) = why.explain(name);
-                findings.warning(place(library.line), what, remedy);
-            }
-        }
-    }
-    paths
-}
-
-struct Reader<'a> {
+struct Maker<'a> {
     root: &'a Path,
-    is_replaced: &'a dyn Fn(&str) -> bool,
+    reading: &'a Reading<'a>,
     known: HashMap<String, (PathBuf, MtlMaterial)>,
     made: HashMap<Option<String>, u32>,
     pictures: HashMap<PathBuf, Option<u32>>,
     materials: Materials,
     glossy: Option<Glossy>,
+}
+
+/// The materials of a library.
+fn library(
+    path: &Path,
+    materials: meaning::Materials,
+) -> Result<Loaded<Vec<MtlMaterial>>, Problems> {
+    let text = source::read_text(path, MOST_BYTES)?;
+    let mut findings = Findings::new(path);
+    let mut list = mtl::parse(&text, &mut findings);
+    if materials == meaning::Materials::AsMeant {
+        meaning::mend(&mut list, &mut findings);
+    }
+    findings.finish(list)
 }
 
 /// Materials whose gloss is left out.
@@ -124,14 +111,14 @@ fn is_glossy(record: &MtlMaterial) -> bool {
     !matches!(record.illum, Some(3 | 5)) && record.ks.is_some_and(|ks| !ks.is_black())
 }
 
-impl Reader<'_> {
+impl Maker<'_> {
     fn material(&mut self, named: Option<&Named>, findings: &mut Findings) -> u32 {
         let key = named.map(|n| n.name.clone());
         if let Some(&index) = self.made.get(&key) {
             return index;
         }
         let name = key.as_deref().unwrap_or(UNNAMED);
-        if (self.is_replaced)(name) {
+        if (self.reading.is_replaced)(name) {
             let index = self.push(Material::two_sided(name, Finish::BLACK));
             self.made.insert(key, index);
             return index;
@@ -164,7 +151,7 @@ impl Reader<'_> {
     }
 
     fn make(&mut self, record: &MtlMaterial, findings: &mut Findings) -> Material {
-        match dielectric(record, findings) {
+        match dielectric(record, self.reading.materials, findings) {
             Some(glass) => Material { name: record.name.clone(), body: Body::Dielectric(glass) },
             None => {
                 if is_glossy(record) {
@@ -194,11 +181,17 @@ impl Reader<'_> {
         let without = "; the material keeps its Kd alone";
         let path = match source::within(self.root, base, &named.name) {
             Ok(path) => path,
-            Err(why) => {
-                let (what, remedy) = why.explain(&named.name);
-                findings.warning(place(named.line), what + without, remedy);
-                return None;
-            }
+            Err(why) => match source::in_other_case(self.root, base, &named.name) {
+                Some(path) => {
+                    libraries::warn_of_case(named, &path, findings);
+                    path
+                }
+                None => {
+                    let (what, remedy) = why.explain(&named.name);
+                    findings.warning(place(named.line), what + without, remedy);
+                    return None;
+                }
+            },
         };
         if let Some(&known) = self.pictures.get(&path) {
             return known;
@@ -224,8 +217,12 @@ fn unknown(name: Option<&str>) -> Material {
     Material::two_sided(name.unwrap_or(UNNAMED), finish)
 }
 
-fn dielectric(record: &MtlMaterial, findings: &mut Findings) -> Option<Dielectric> {
-    let dissolve = record.dissolve.unwrap_or(1.0);
+fn dielectric(
+    record: &MtlMaterial,
+    materials: meaning::Materials,
+    findings: &mut Findings,
+) -> Option<Dielectric> {
+    let dissolve = record.dissolve();
     let thin = match record.illum {
         Some(6 | 7) => false,
         Some(4 | 9) => true,
@@ -234,13 +231,18 @@ fn dielectric(record: &MtlMaterial, findings: &mut Findings) -> Option<Dielectri
     };
     let through = if dissolve < 1.0 { Rgb::grey(1.0 - dissolve) } else { Rgb::WHITE };
     let transmittance = record.tf.unwrap_or(through).map(|t| t.min(1.0));
-    let ior = record.ni.filter(|n| *n > 1.0).unwrap_or(USUAL_INDEX);
+    let least = if materials == meaning::Materials::AsWritten { 0.0 } else { 1.0 };
+    let (ior, instead) = match record.ni {
+        Some(ni) if ni > least => (ni, String::new()),
+        Some(ni) => (USUAL_INDEX, format!(" (instead of Ni {ni}, which would not refract)")),
+        None => (USUAL_INDEX, String::new()),
+    };
     let kind = if thin { "a thin pane" } else { "solid glass" };
     let [r, g, b] = transmittance.0;
     findings.warning(
         place(record.line),
         format!(
-            "material `{}` is read as {kind} of index {ior}, transmitting {r} {g} {b}",
+            "material `{}` is read as {kind} of index {ior}{instead}, transmitting {r} {g} {b}",
             record.name
         ),
         "assign a material of scene.toml where this is not meant",

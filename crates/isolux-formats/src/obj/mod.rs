@@ -12,35 +12,41 @@
 //! | `illum` 6, 7 | solid glass of index `Ni`, transmitting `Tf` |
 //! | `illum` 4, 9, or `d` below 1 | a thin pane transmitting `Tf`, or else `1 - d` |
 //!
+//! What would make most coloured surfaces of a file invisible by this letter is read as opaque, with a
+//! warning, because no writer means it; `meaning.rs` says what. A library that is missing is looked for
+//! in other cases of letters, and then under the name of the OBJ file.
+//!
 //! Surfaces reflect on both sides, because orientation in OBJ files is not to be relied on; of faces
 //! with the same corners and material one is kept.
 
 mod copies;
+mod libraries;
 mod lines;
 mod material;
+mod meaning;
 mod mtl;
 mod parse;
+mod reading;
 mod record;
 mod resolve;
 
 use crate::findings::Findings;
 use crate::{Loaded, Problems, source};
 use isolux::scene::SceneParts;
+pub use meaning::Materials;
+pub(crate) use reading::Reading;
 use std::path::Path;
 
 const MOST_BYTES: u64 = 1 << 30;
 
-/// What is known of a file from elsewhere.
-pub(crate) struct Reading<'a> {
-    /// Whether its unit of length is known, so that its size surprises nobody.
-    pub(crate) unit_is_known: bool,
-    /// Whether a material is replaced by another: then it is not looked at, and comes out black.
-    pub(crate) is_replaced: &'a dyn Fn(&str) -> bool,
-}
-
 /// Reads an OBJ file and the materials and textures it names, which must lie in its directory tree.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
-    read_as(path, &Reading { unit_is_known: false, is_replaced: &|_| false })
+    read_with(path, Materials::AsMeant)
+}
+
+/// Reads an OBJ file and its materials as meant or as written.
+pub fn read_with(path: &Path, materials: Materials) -> Result<Loaded<SceneParts>, Problems> {
+    read_as(path, &Reading { unit_is_known: false, is_replaced: &|_| false, materials })
 }
 
 /// Reads an OBJ file of which something is known.
@@ -49,7 +55,7 @@ pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<ScenePart
     let mut findings = Findings::new(path);
     let file = parse::parse(&text, &mut findings);
     drop(text);
-    let materials = material::read_libraries(&file, reading.is_replaced, &mut findings);
+    let materials = material::read_libraries(&file, reading, &mut findings);
     if findings.has_problems() {
         return findings.finish(SceneParts::default());
     }

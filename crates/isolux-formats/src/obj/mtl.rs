@@ -65,13 +65,10 @@ fn take(
             _ => bad("a positive number"),
         },
         "d" | "Tr" => match rest.split_whitespace().last().and_then(number) {
-            Some(value) if (0.0..=1.0).contains(&value) => {
-                // `d` wins where both are given: writers disagree on the sense of `Tr`.
-                let dissolve = if keyword == "d" { value } else { 1.0 - value };
-                if keyword == "d" || material.dissolve.is_none() {
-                    material.dissolve = Some(dissolve);
-                }
-            }
+            Some(value) if (0.0..=1.0).contains(&value) => match keyword {
+                "d" => material.d = Some(value),
+                _ => material.tr = Some(value),
+            },
             _ => bad("a number from 0 to 1"),
         },
         "illum" => match rest.parse() {

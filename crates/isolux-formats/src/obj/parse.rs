@@ -23,6 +23,12 @@ pub(super) fn parse(text: &str, findings: &mut Findings) -> ObjFile {
             "only polygons with `v`, `vt`, `vn`, `f` are read; convert the rest to polygons",
         );
     }
+    if let Some((line, count)) = parser.coloured {
+        let what = format!("the colours of {} are not used", counted(count, "vertex", "vertices"));
+        let remedy = "save the mesh as PLY and set `vertex_colours = true` in a scene.toml, which reads \
+                      them as reflectance";
+        findings.warning(super::lines::place(line), what, remedy);
+    }
     parser.file
 }
 
@@ -45,13 +51,21 @@ struct Parser {
     current: Option<usize>,
     part_of: HashMap<(String, Option<String>), usize>,
     unused: BTreeMap<String, (usize, usize)>,
+    /// The line of the first vertex with a colour, and the number of all.
+    coloured: Option<(usize, usize)>,
 }
 
 impl Parser {
     fn take(&mut self, statement: &Statement) -> Result<(), Wrong> {
         let (keyword, rest) = statement.split();
         match keyword {
-            "v" => keep(&mut self.file.positions, fixed(rest))?,
+            "v" => {
+                // Three numbers more, or four with a weight, are a colour.
+                if rest.split_whitespace().nth(5).is_some() {
+                    self.coloured.get_or_insert((statement.line, 0)).1 += 1;
+                }
+                keep(&mut self.file.positions, fixed(rest))?;
+            }
             "vn" => keep(&mut self.file.normals, fixed(rest))?,
             "vt" => keep(&mut self.file.uvs, texture_coordinates(rest))?,
             "f" => self.face(rest, statement.line)?,

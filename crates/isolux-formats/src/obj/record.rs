@@ -57,9 +57,24 @@ pub(super) struct MtlMaterial {
     pub(super) ke: Option<Rgb>,
     pub(super) tf: Option<Rgb>,
     pub(super) ni: Option<f64>,
-    pub(super) dissolve: Option<f64>,
+    /// Opacity.
+    pub(super) d: Option<f64>,
+    /// By the letter the complement of opacity.
+    pub(super) tr: Option<f64>,
     pub(super) illum: Option<u32>,
     pub(super) map_kd: Option<Named>,
+}
+
+impl MtlMaterial {
+    /// Opacity; `d` counts where both it and `Tr` are given, because writers disagree on the sense of `Tr`.
+    pub(super) fn dissolve(&self) -> f64 {
+        self.d.or(self.tr.map(|tr| 1.0 - tr)).unwrap_or(1.0)
+    }
+
+    /// Whether its `illum` lets light through.
+    pub(super) fn is_transmitting(&self) -> bool {
+        matches!(self.illum, Some(4 | 6 | 7 | 9))
+    }
 }
 
 impl Part {

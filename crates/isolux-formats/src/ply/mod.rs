@@ -30,7 +30,10 @@ pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
 
 /// Reads a PLY file of which something is known.
 pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<SceneParts>, Problems> {
-    let contents = source::read_bytes(path, MOST_BYTES)?;
+    let mut contents = source::read_bytes(path, MOST_BYTES)?;
+    if source::is_utf16(&contents) {
+        contents = source::decoded(contents).into_bytes();
+    }
     let bytes = source::without_mark(&contents);
     let mut findings = Findings::new(path);
     let mesh = match header::parse(bytes) {

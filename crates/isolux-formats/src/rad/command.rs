@@ -1,5 +1,6 @@
 //! Commands in scenes, resolved without a shell.
 
+use super::argument_files::{self, Lookup};
 use super::genbox;
 use super::record::Object;
 use super::words::{number, stages};
@@ -38,18 +39,26 @@ pub(super) struct IesCommand {
 /// Why a command is not done, and what to do.
 pub(super) type Refusal = (String, &'static str);
 
-/// What a command means.
-pub(super) fn parse(text: &str, line: usize) -> Result<Command, Refusal> {
-    let commands = "commands are not run; only xform, genbox, ies2rad and cat, joined by pipes, are \
-                    understood: run it yourself and name the file it writes by `!xform FILE`";
-    let arguments = "see the manual of the command";
-    let all = stages(text).map_err(|what| (format!("`!{}`: {what}", shown(text)), commands))?;
+/// What a command means: several commands where `xform -f` reads its arguments from the lines of a file.
+pub(super) fn parse(text: &str, line: usize, lookup: Lookup) -> Result<Vec<Command>, Refusal> {
+    let all = stages(text).map_err(|what| (format!("`!{}`: {what}", shown(text)), COMMANDS))?;
+    let wrong = |what: String| (format!("`!{}`: {what}", shown(text)), ARGUMENTS);
+    let all = argument_files::expand(all, lookup).map_err(wrong)?;
+    all.iter().map(|stages| of_stages(stages, text, line)).collect()
+}
+
+const COMMANDS: &str = "commands are not run; only xform, genbox, ies2rad and cat, joined by pipes, are \
+                        understood: run it yourself and name the file it writes by `!xform FILE`";
+const ARGUMENTS: &str = "see the manual of the command";
+
+/// What the stages of one command mean.
+fn of_stages(all: &[Vec<String>], text: &str, line: usize) -> Result<Command, Refusal> {
     let mut all = all.iter();
     let first = all.next().map_or(&[][..], |words| words);
     let Some((program, words)) = first.split_first() else {
         return Err(("`!` without a command".into(), "remove it"));
     };
-    let wrong = |what: String| (format!("`!{program}`: {what}"), arguments);
+    let wrong = |what: String| (format!("`!{program}`: {what}"), ARGUMENTS);
     let mut stages = Vec::new();
     let source = match program.as_str() {
         "xform" => {
@@ -66,7 +75,7 @@ pub(super) fn parse(text: &str, line: usize) -> Result<Command, Refusal> {
             let remedy = "run it, and keep of what it writes the sun: a light and a source";
             return Err((what, remedy));
         }
-        _ => return Err((format!("`!{}` is not run", shown(program)), commands)),
+        _ => return Err((format!("`!{}` is not run", shown(program)), COMMANDS)),
     };
     if matches!(&source, Source::Files(files) if files.is_empty()) {
         return Err(wrong("it names no file".into()));
@@ -75,7 +84,7 @@ pub(super) fn parse(text: &str, line: usize) -> Result<Command, Refusal> {
         let Some(("xform", words)) = stage.split_first().map(|(p, w)| (p.as_str(), w)) else {
             return Err((
                 format!("`!{}`: only xform is understood after a pipe", shown(text)),
-                commands,
+                COMMANDS,
             ));
         };
         let xform = xform::parse(words).map_err(wrong)?;

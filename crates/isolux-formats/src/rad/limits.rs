@@ -15,6 +15,8 @@ pub(super) const COPIES: usize = 1 << 20;
 pub(super) const MODIFIERS: usize = 1 << 18;
 /// Modifiers one upon the other.
 pub(super) const CHAIN: usize = 256;
+/// Mixtures one in the other, each of which looks at two modifiers.
+pub(super) const MIXTURES: usize = 8;
 /// Triangles of the whole scene.
 pub(super) const TRIANGLES: usize = 1 << 25;
 /// Luminaires of the whole scene.

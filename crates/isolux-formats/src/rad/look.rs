@@ -2,7 +2,8 @@
 
 use super::limits;
 use super::material::{self, Made};
-use super::modifiers::{Modifiers, Named};
+use super::mixture;
+use super::modifiers::{Definition, Modifiers, Named};
 use super::record::{Kind, kind_of};
 use crate::lines::{At, Notes};
 use isolux::scene::Body;
@@ -36,6 +37,16 @@ impl Look {
 
 /// What surfaces of a modifier are; `None` after a problem.
 pub(super) fn look(modifier: usize, modifiers: &Modifiers, notes: &mut Notes) -> Option<Look> {
+    look_at_depth(modifier, modifiers, notes, 0)
+}
+
+/// What surfaces of a modifier are that lies in so many mixtures.
+fn look_at_depth(
+    modifier: usize,
+    modifiers: &Modifiers,
+    notes: &mut Notes,
+    depth: usize,
+) -> Option<Look> {
     let mut chain = Chain { modifiers, patterns: Vec::new(), left: limits::CHAIN };
     let name = modifiers.get(modifier).object.name.clone();
     let material = match chain.follow(Named::Known(modifier), notes) {
@@ -44,12 +55,62 @@ pub(super) fn look(modifier: usize, modifiers: &Modifiers, notes: &mut Notes) ->
         Err(()) => return None,
     };
     let definition = modifiers.get(material);
-    let made = material::make(&definition.object, &definition.at, notes)?;
+    let made = match kind_of(&definition.object.type_) {
+        Some(Kind::Mixture) => mixed(definition, modifiers, notes, depth)?,
+        _ => material::make(&definition.object, &definition.at, notes)?,
+    };
     // A material may modify a material; then only the first counts.
     chain.follow(definition.modifier, notes).ok()?;
     let mut look = Look { name, made, table: None };
     look.table = chain.end(&look, &definition.at, notes)?;
     Some(look)
+}
+
+/// The mean of what a mixture mixes; `None` after a problem.
+fn mixed(
+    definition: &Definition,
+    modifiers: &Modifiers,
+    notes: &mut Notes,
+    depth: usize,
+) -> Option<Made> {
+    let object = &definition.object;
+    let label = format!("{} `{}`", object.type_, object.name);
+    let refuse = |notes: &mut Notes, what: &str| {
+        notes.problem(&definition.at, format!("{label} {what}"), "choose one of what it mixes");
+        None
+    };
+    let [one, other, ..] = &object.strings[..] else {
+        return refuse(notes, "does not name what it mixes");
+    };
+    if depth == limits::MIXTURES {
+        return refuse(notes, &format!("lies in more than {} others", limits::MIXTURES));
+    }
+    let mut side = |named: Named| match named {
+        Named::Nothing => Some(Made::Invisible),
+        // Where the name stands it was told.
+        Named::Unknown => None,
+        Named::Known(index) => {
+            let look = look_at_depth(index, modifiers, notes, depth + 1)?;
+            match look.table {
+                None => Some(look.made),
+                Some(_) => refuse(notes, "mixes a light with a table of intensities"),
+            }
+        }
+    };
+    let (foreground, background) = (side(definition.target)?, side(definition.background)?);
+    let has_hole = [&foreground, &background].contains(&&Made::Invisible);
+    let made = match mixture::mean(foreground, background) {
+        Ok(made) => made,
+        Err(what) => return refuse(notes, what),
+    };
+    let what = match has_hole {
+        true => format!("{label} has holes, which are closed: it mixes `{one}` and `{other}`"),
+        false => {
+            format!("{label} is read as half `{one}`, half `{other}`: its pattern is left out")
+        }
+    };
+    notes.warning(&definition.at, what, "give each part a surface where the shares differ much");
+    Some(made)
 }
 
 /// Modifiers upon modifiers.
@@ -76,7 +137,7 @@ impl Chain<'_> {
             self.left -= 1;
             next = definition.modifier;
             match kind_of(&object.type_) {
-                Some(Kind::Material) => return Ok(Some(index)),
+                Some(Kind::Material | Kind::Mixture) => return Ok(Some(index)),
                 Some(Kind::Pattern) => self.patterns.push(index),
                 Some(Kind::Alias) => {
                     self.follow_side(definition.modifier, notes)?;
@@ -86,9 +147,9 @@ impl Chain<'_> {
                     let what = format!("{label}: textures are left out, the surface is smooth");
                     notes.warning(&definition.at, what, "model its shape where it matters");
                 }
-                _ => {
-                    let what = format!("{label} is not read");
-                    notes.problem(&definition.at, what, "choose one of what it mixes");
+                Some(Kind::Surface) | None => {
+                    let what = format!("{label} is no modifier");
+                    notes.problem(&definition.at, what, "name a material");
                     return Err(());
                 }
             }

@@ -5,6 +5,7 @@
 //! surface, with formulas, is in the `README.md` of this folder. Files are taken as hostile: arrays,
 //! nesting and sizes are bounded, and only files in the scene's directory tree are opened.
 
+mod argument_files;
 mod build;
 mod command;
 mod frame;
@@ -15,6 +16,7 @@ mod limits;
 mod look;
 mod luminaires;
 mod material;
+mod mixture;
 mod modifiers;
 mod parse;
 mod reader;

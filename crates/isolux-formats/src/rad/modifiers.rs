@@ -14,8 +14,10 @@ pub(super) struct Definition {
     pub(super) object: Object,
     /// What modifies it.
     pub(super) modifier: Named,
-    /// What an alias stands for.
+    /// What an alias stands for; of a mixture the first that it mixes.
     pub(super) target: Named,
+    /// The second that a mixture mixes.
+    pub(super) background: Named,
     /// The place of a pattern.
     pub(super) world_from_file: Transform,
 }
@@ -60,6 +62,7 @@ impl Modifiers {
             at,
             modifier: self.find(&object.modifier),
             target: object.strings.first().map_or(Named::Unknown, |name| self.find(name)),
+            background: object.strings.get(1).map_or(Named::Unknown, |name| self.find(name)),
             world_from_file: if is_placed { *map } else { Transform::IDENTITY },
             object,
         };

@@ -156,33 +156,48 @@ impl<'a> Reader<'a> {
 
     fn command(&mut self, text: &str, at: At, frame: &Frame) -> Going {
         self.visit(&at)?;
-        let Command { source, stages } = match command::parse(text, at.line) {
-            Ok(command) => command,
+        let mut lookup = |name: &str| self.arguments(name, &at);
+        match command::parse(text, at.line, &mut lookup) {
+            Ok(commands) => commands.into_iter().try_for_each(|c| self.obey(c, &at, frame)),
             Err((what, remedy)) => {
                 self.notes.problem(&at, what, remedy);
-                return Some(());
+                Some(())
             }
-        };
+        }
+    }
+
+    /// The text of a file of arguments.
+    fn arguments(&mut self, name: &str, at: &At) -> Result<String, String> {
+        let path = self.path_of(name, &at.file).map_err(|why| why.explain(name).0)?;
+        let text = source::read_text(&path, self.bytes_left)
+            .map_err(|problem| format!("`{name}` {}", problem.what))?;
+        self.bytes_left = self.bytes_left.saturating_sub(text.len() as u64);
+        Ok(text)
+    }
+
+    fn obey(&mut self, command: Command, at: &At, frame: &Frame) -> Going {
+        self.visit(at)?;
+        let Command { source, stages } = command;
         let frames = match frame.within(&stages) {
             Ok(frames) => frames,
-            Err(what) => return self.full(&at, what),
+            Err(what) => return self.full(at, what),
         };
         let paths = match &source {
-            Source::Files(names) => self.paths_of(names, &at),
-            Source::Ies(command) => self.paths_of(std::slice::from_ref(&command.file), &at),
+            Source::Files(names) => self.paths_of(names, at),
+            Source::Ies(command) => self.paths_of(std::slice::from_ref(&command.file), at),
             Source::Objects(_) => Some(Vec::new()),
         };
         let Some(paths) = paths else { return Some(()) };
         for frame in &frames {
-            self.visit(&at)?;
+            self.visit(at)?;
             match &source {
                 Source::Files(_) => {
-                    paths.iter().try_for_each(|path| self.file(path, frame, &at))?;
+                    paths.iter().try_for_each(|path| self.file(path, frame, at))?;
                 }
                 Source::Objects(objects) => {
                     objects.iter().try_for_each(|object| self.object(object, at.clone(), frame))?;
                 }
-                Source::Ies(command) => self.ies(command, &paths[0], &at, frame)?,
+                Source::Ies(command) => self.ies(command, &paths[0], at, frame)?,
             }
         }
         Some(())
@@ -241,10 +256,12 @@ impl<'a> Reader<'a> {
         if kind_of(&object.type_) == Some(Kind::Surface) {
             return self.surface(object, &at, frame);
         }
-        for name in
-            [Some(&object.modifier), object.strings.first().filter(|_| object.type_ == "alias")]
-        {
-            let Some(name) = name else { continue };
+        let named = match kind_of(&object.type_) {
+            Some(Kind::Alias) => 1,
+            Some(Kind::Mixture) => 2,
+            _ => 0,
+        };
+        for name in std::iter::once(&object.modifier).chain(object.strings.iter().take(named)) {
             if self.modifiers.find(name) == Named::Unknown {
                 self.unknown(name, &at);
             }
@@ -290,8 +307,14 @@ impl<'a> Reader<'a> {
     fn surface(&mut self, object: &Object, at: &At, frame: &Frame) -> Going {
         let label = format!("{} `{}`", object.type_, frame.name(&object.name));
         if matches!(object.type_.as_str(), "mesh" | "instance") {
-            let remedy = "name the .rad file it was compiled from by `!xform`";
-            self.notes.problem(at, format!("{label}: compiled geometry is not read"), remedy);
+            let remedy = "name the .rad or .obj file it was compiled from: the first by `!xform FILE`, the \
+                          other in a scene.toml";
+            let file = object.strings.first().map_or("", String::as_str);
+            self.notes.problem(
+                at,
+                format!("{label}: compiled geometry, `{file}`, is not read"),
+                remedy,
+            );
             return Some(());
         }
         let modifier = frame.modifier.as_deref().unwrap_or(&object.modifier);

@@ -2,6 +2,7 @@
 
 use super::spans::{Lines, Span};
 use crate::findings::Findings;
+use crate::obj::Materials;
 use crate::{Loaded, Problem, Problems, source};
 use isolux::scene::UpAxis;
 use std::path::{Path, PathBuf};
@@ -22,6 +23,8 @@ pub(super) struct Context {
     /// Metres in one unit of length of the file.
     pub(super) unit_m: f64,
     pub(super) up: UpAxis,
+    /// Whether materials of other formats are read as meant.
+    pub(super) materials: Materials,
     triangles_left: usize,
     luminaires_left: usize,
 }
@@ -34,6 +37,7 @@ impl Context {
             lines: Lines::new(text),
             unit_m: 1.0,
             up: UpAxis::Z,
+            materials: Materials::AsMeant,
             triangles_left: MOST_TRIANGLES,
             luminaires_left: MOST_LUMINAIRES,
         }

@@ -66,7 +66,9 @@ fn open(
     let is_replaced = |name: &str| record.material.is_some() || record.materials.contains_key(name);
     Some(match extension.as_deref() {
         Some("obj") => {
-            let reading = obj::Reading { unit_is_known: true, is_replaced: &is_replaced };
+            let materials = context.materials;
+            let reading =
+                obj::Reading { unit_is_known: true, is_replaced: &is_replaced, materials };
             (obj::read_as(path, &reading), context.unit_m)
         }
         Some("gltf" | "glb") => {

@@ -23,6 +23,7 @@ mod spans;
 mod text;
 mod write;
 
+use crate::obj::Materials;
 use crate::{Loaded, Problems};
 use isolux::scene::SceneParts;
 use isolux::units::Rgb;
@@ -33,8 +34,14 @@ pub use write::{NamedPhotometry, SceneFile, write};
 /// Reads a scene and all files it names, which must lie in its directory tree; on failure, all
 /// problems with line and column.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
+    read_with(path, Materials::AsMeant)
+}
+
+/// Reads a scene whose files of other formats have materials as meant or as written.
+pub fn read_with(path: &Path, materials: Materials) -> Result<Loaded<SceneParts>, Problems> {
     let text = text::of(path)?;
     let mut context = context::Context::new(path, &text);
+    context.materials = materials;
     let file = parse::parse(&text, &mut context);
     let parts = resolve::resolve(file, &mut context);
     context.finish(parts)

@@ -2,7 +2,7 @@
 
 use super::record::Solid;
 use crate::findings::Findings;
-use crate::source::without_mark;
+use crate::source::{is_utf16, without_mark};
 
 const HEADER: usize = 80;
 const START: usize = HEADER + 4;
@@ -13,6 +13,9 @@ const TRIANGLE: usize = 50;
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
     let is_as_long_as_told =
         count(bytes).is_some_and(|n| (bytes.len() - START) as u64 == n * TRIANGLE as u64);
+    if is_utf16(bytes) && !is_as_long_as_told {
+        return false;
+    }
     let text = without_mark(bytes).trim_ascii_start();
     let begins_as_text = text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     is_as_long_as_told || !begins_as_text || bytes.contains(&0)

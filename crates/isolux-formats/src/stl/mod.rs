@@ -33,9 +33,8 @@ pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<ScenePart
     let solids = if binary::is_binary(&bytes) {
         binary::parse(&bytes, &mut findings)
     } else {
-        text::parse(&String::from_utf8_lossy(source::without_mark(&bytes)), &mut findings)
+        text::parse(&source::decoded(bytes), &mut findings)
     };
-    drop(bytes);
     if findings.has_problems() {
         return findings.finish(SceneParts::default());
     }

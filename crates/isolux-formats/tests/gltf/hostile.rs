@@ -340,7 +340,7 @@ fn nodes() {
                 f.json["nodes"][0]["matrix"] =
                     json!([1e39, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
             },
-            "line 1",
+            "nodes[0]",
             "number out of range",
         ),
         (
@@ -361,7 +361,7 @@ fn nodes() {
         (
             "scale beyond floats",
             |f| f.json["nodes"][0]["scale"] = json!([1, 1e300, 1]),
-            "line 1",
+            "nodes[0]",
             "number out of range",
         ),
         (
@@ -404,7 +404,7 @@ fn references() {
         ("http", "http://example.org/a.bin", "of the kind `http:`"),
         ("not UTF-8", "%ff%fe", "not UTF-8"),
         ("half a percent sign", "a%4", "without two hexadecimal digits"),
-        ("missing", "missing.bin", "cannot read"),
+        ("missing", "missing.bin", "does not exist"),
         ("directory", ".", "not a regular file"),
         ("data without comma", "data:application/octet-stream;base64", "no comma"),
         ("data not base64", "data:;base64,*", "not valid base64"),
@@ -518,13 +518,14 @@ fn texts() {
             r#"{"asset":{"version":"2.0"},"scene":0,"scene":1}"#.into(),
             "duplicate",
         ),
-        ("negative index", r#"{"asset":{"version":"2.0"},"scene":-1}"#.into(), "invalid type"),
         ("no asset", "{}".into(), "missing field `asset`"),
         ("text behind", r#"{"asset":{"version":"2.0"}} x"#.into(), "trailing characters"),
     ];
     for (name, text, words) in table {
         assert_refused(name, read_bytes("a.gltf", text.as_bytes()), "line 1, column", words);
     }
+    let text = r#"{"asset":{"version":"2.0"},"scene":-1}"#;
+    assert_refused("negative", read_bytes("a.gltf", text.as_bytes()), "scene", "invalid type");
     for version in ["1.0", "3.0", "2", ""] {
         // Meshes were named, not numbered, before version 2.
         let text = format!(r#"{{"asset":{{"version":"{version}"}},"meshes":{{}}}}"#);
@@ -532,7 +533,7 @@ fn texts() {
     }
     let directory = tempfile::tempdir().unwrap();
     assert_refused("directory", gltf::read(directory.path()), "", "not a regular file");
-    assert_refused("missing", gltf::read(&directory.path().join("no.glb")), "", "cannot be read");
+    assert_refused("missing", gltf::read(&directory.path().join("no.glb")), "", "does not exist");
 }
 
 /// A small file that would become a thousand times a thousand vertices.

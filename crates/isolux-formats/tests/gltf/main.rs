@@ -9,5 +9,6 @@ mod hostile;
 mod layers;
 mod lights;
 mod materials;
+mod optional;
 mod poses;
 mod samples;

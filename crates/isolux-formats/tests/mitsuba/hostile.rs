@@ -20,8 +20,8 @@ const REFUSED: &[(&str, &str)] = &[
         "black bodies are not read",
     ),
     (
-        "<shape type='cube'><emitter type='area'><spectrum name='radiance' value='400:1, 500:2'/></emitter></shape>",
-        "spectra by wavelength",
+        "<shape type='cube'><emitter type='area'><spectrum name='radiance' value='500:1, 400:2'/></emitter></shape>",
+        "no list of `wavelength:value`",
     ),
     (
         "<shape type='cube'><emitter type='area'><rgb name='radiance' value='-1'/></emitter></shape>",

@@ -69,3 +69,54 @@ fn a_sky_of_one_luminance_is_a_box_around_the_scene() {
     assert_eq!(material.finish(false).unwrap().luminance_cd_m2, Rgb::new(1.0, 2.0, 3.0) * 179.0);
     assert_eq!(*material.finish(true).unwrap(), Finish::BLACK);
 }
+
+/// Mitsuba's own Cornell box has its lamp so: it was refused.
+#[test]
+fn an_area_emitter_is_named_by_the_shape_it_is_on() {
+    let lamp = "<emitter type='area' id='lamp'><rgb name='radiance' value='2'/></emitter>";
+    let shape = "<shape type='rectangle'><ref id='lamp'/></shape>";
+    for inside in [format!("{lamp}{shape}{shape}"), format!("{shape}{lamp}{shape}")] {
+        let scene = Scene::assemble(read(&inside)).unwrap();
+        let luminances = scene.area_luminaires().iter().map(|l| l.luminance_cd_m2);
+        assert_eq!(luminances.collect::<Vec<_>>(), [Rgb::grey(358.0); 2]);
+    }
+    let unused = told(&format!("{lamp}{RECTANGLE}"));
+    assert!(unused.contains("lights nothing"), "{unused}");
+}
+
+/// `d65` is the usual white of Mitsuba's scenes: it was said to be no number.
+#[test]
+fn spectra_by_type() {
+    let light = |spectrum: &str| {
+        let inside = format!("{RECTANGLE}<emitter type='point'>{spectrum}</emitter>");
+        let luminaire = read(&inside).luminaires.remove(0);
+        let LuminaireKind::Point { intensity, .. } = luminaire.kind else { panic!() };
+        (intensity.max_intensity_cd() / 179.0, luminaire.colour)
+    };
+    let (level, colour) = light("<spectrum name='intensity' type='d65'/>");
+    near(level, 1.0, 1e-12);
+    colour.0.iter().for_each(|channel| near(*channel, 1.0, 1e-12));
+    let scaled = "<spectrum name='intensity' type='d65'><float name='scale' value='3'/></spectrum>";
+    near(light(scaled).0, 3.0, 1e-12);
+    let flat = "<spectrum name='intensity' type='regular'><float name='wavelength_min' value='360'/>\
+                <float name='wavelength_max' value='830'/><string name='values' value='2, 2 2'/></spectrum>";
+    near(light(flat).0, 2.0, 1e-12);
+    near(light("<spectrum name='intensity' value='360:2, 830:2'/>").0, 2.0, 1e-12);
+    let paint =
+        |spectrum: &str| front(&format!("<bsdf type='diffuse'>{spectrum}</bsdf>")).diffuse.colour.0;
+    let red = "<spectrum name='reflectance' type='irregular'><string name='wavelengths' value='590 600 780'/>\
+               <string name='values' value='0 0.7 0.7'/></spectrum>";
+    let [r, g, b] = paint(red);
+    assert!(r > 0.5 && g < 0.1 && b < 0.05, "{r} {g} {b}");
+    near(
+        paint(
+            "<spectrum name='reflectance' type='uniform'><float name='value' value='0.3'/></spectrum>",
+        )[1],
+        0.3,
+        1e-12,
+    );
+    let emitter = |spectrum: &str| format!("{RECTANGLE}<emitter type='point'>{spectrum}</emitter>");
+    refused(&emitter("<spectrum name='intensity' type='blackbody'/>"), "type `blackbody`");
+    refused(&emitter("<spectrum name='intensity' filename='a.spd'/>"), "files of their own");
+    refused(&emitter("<spectrum name='intensity' type='regular'/>"), "no regular list");
+}

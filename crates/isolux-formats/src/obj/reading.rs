@@ -1,0 +1,13 @@
+//! How a file is read.
+
+use super::meaning::Materials;
+
+/// What is known of a file from elsewhere.
+pub(crate) struct Reading<'a> {
+    /// Whether its unit of length is known, so that its size surprises nobody.
+    pub(crate) unit_is_known: bool,
+    /// Whether a material is replaced by another: then it is not looked at, and comes out black.
+    pub(crate) is_replaced: &'a dyn Fn(&str) -> bool,
+    /// Whether materials are read as meant.
+    pub(crate) materials: Materials,
+}
