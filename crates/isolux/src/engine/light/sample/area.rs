@@ -6,16 +6,11 @@ use super::super::sources::{
     Emitter, MOST_TRIANGLES_A_SAMPLE, Source, SourceKind, Target, facing_cos,
 };
 use super::clusters::Parted;
-use super::luminous::LuminousSource;
-use super::measured::{Measured, REPLICATES, STUDENT_FACTOR};
-use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
-use crate::sampling::Sequence;
+use super::measured::mean;
+use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Point, Vector};
 use std::borrow::Cow;
-
-/// Factor on the number of shadow rays if the noise is still too large.
-const FURTHER_RAYS_FACTOR: usize = 4;
 
 /// Samples of a large emitter for a rough value of its unoccluded light.
 const ROUGH_SAMPLES: usize = 16;
@@ -49,6 +44,14 @@ impl<'a> AreaSource<'a> {
     /// The number of its triangles.
     pub(crate) const fn count(self) -> usize {
         self.triangles.len()
+    }
+
+    /// Unoccluded illuminance, lx; a rough value if the surface is partitioned.
+    pub(super) fn unhidden_lx(self, at: &SurfacePoint, dice: &mut Dice) -> f64 {
+        let Some(shape) = Shape::new(at, self.emitter(), 1) else { return 0.0 };
+        let one = |dice: &mut Dice| Rgb::grey(shape.place(dice).map_or(0.0, |place| place.share));
+        let samples = if let Seen::Pieces(_) = shape.seen { 1 } else { ROUGH_SAMPLES };
+        self.source.colour.luminance() * mean(samples, dice, one).luminance() * shape.whole
     }
 
     /// The surface as a whole, and its triangles.
@@ -127,67 +130,6 @@ impl Lighting<'_> {
         }
     }
 
-    /// Illuminance from the emitting surfaces and luminous areas among some sources, with the variance of its mean.
-    /// `goal_lx` gives the allowed standard error for the light of a first measurement, lx. If the
-    /// first standard error is larger, the surfaces that exceed their part of it get more shadow rays.
-    pub(crate) fn of_surfaces(
-        &self,
-        which: impl Iterator<Item = u32>,
-        at: &SurfacePoint,
-        goal_lx: impl Fn(Rgb) -> f64,
-        [fewest, most]: [usize; 2],
-        sequence: Sequence,
-    ) -> Measured {
-        let surfaces: Vec<u32> = which.filter(|&k| self.sources[k as usize].has_extent()).collect();
-        let measured = |&k: &u32, samples: usize| {
-            let numbers = [sequence.fork(k, samples as u32), sequence];
-            self.of_surface(&self.sources[k as usize], at, samples, numbers)
-        };
-        let mut found: Vec<Measured> = surfaces.iter().map(|of| measured(of, fewest)).collect();
-        let sum = |found: &[Measured]| Measured {
-            lx: found.iter().map(|m| m.lx).sum(),
-            variance: found.iter().map(|m| STUDENT_FACTOR * STUDENT_FACTOR * m.variance).sum(),
-        };
-        let first = sum(&found);
-        let goal = goal_lx(first.lx).powi(2);
-        if first.variance > goal {
-            let goal = goal / surfaces.len() as f64;
-            for (found, of) in found.iter_mut().zip(&surfaces) {
-                let mut samples = fewest;
-                while found.variance > goal && samples < most {
-                    samples = (FURTHER_RAYS_FACTOR * samples).min(most);
-                    *found = measured(of, samples);
-                }
-            }
-        }
-        sum(&found)
-    }
-
-    /// Illuminance from one source with an extent, by `samples` shadow rays in each replicate. If no ray
-    /// meets light, the variance assumes that the next one would.
-    fn of_surface(
-        &self,
-        source: &Source,
-        at: &SurfacePoint,
-        samples: usize,
-        [own, of_looks]: [Sequence; 2],
-    ) -> Measured {
-        let of_each: [Rgb; REPLICATES as usize] = std::array::from_fn(|replicate| {
-            let mut dice = Dice::new(own, replicate as u32);
-            self.lit_by(source, at, samples, &mut dice)
-        });
-        let (lx, variance) = mean_and_variance(&of_each);
-        if !lx.is_black() {
-            return Measured { lx, variance };
-        }
-        let samples = samples as f64 * f64::from(REPLICATES);
-        let unseen_lx = match self.openings.view(source, at) {
-            Some(view) => source.colour.luminance() * view.unseen(samples),
-            None => self.unhidden_lx(source, at, &mut Dice::new(of_looks, 0)) / samples,
-        };
-        Measured { lx, variance: unseen_lx * unseen_lx }
-    }
-
     /// Illuminance from one emitting surface, by `samples` shadow rays.
     ///
     /// Directions are drawn in proportion to the cosine at the receiver. The share of free ones,
@@ -224,37 +166,13 @@ impl Lighting<'_> {
         };
         source.colour * mean(samples, dice, one) * shape.whole
     }
-
-    /// Unoccluded illuminance from a source with an extent, lx; a rough value if its surface is partitioned.
-    fn unhidden_lx(&self, source: &Source, at: &SurfacePoint, dice: &mut Dice) -> f64 {
-        if let Some(luminous) = LuminousSource::of(source) {
-            return self.unhidden(luminous, at).luminance();
-        }
-        let Some(AreaSource { emitter, triangles, .. }) = AreaSource::of(source) else {
-            return 0.0;
-        };
-        let Some(shape) = Shape::new(at, (emitter, triangles), 1) else { return 0.0 };
-        let one = |dice: &mut Dice| Rgb::grey(shape.place(dice).map_or(0.0, |place| place.share));
-        let samples = if let Seen::Pieces(_) = shape.seen { 1 } else { ROUGH_SAMPLES };
-        source.colour.luminance() * mean(samples, dice, one).luminance() * shape.whole
-    }
-}
-
-/// Mean of samples over a low-discrepancy sequence.
-pub(super) fn mean(samples: usize, dice: &mut Dice, mut one: impl FnMut(&mut Dice) -> Rgb) -> Rgb {
-    if samples == 1 {
-        return one(dice);
-    }
-    let sequence = dice.fork();
-    let sum: Rgb = (0..samples).map(|k| one(&mut Dice::new(sequence, k as u32))).sum();
-    sum / samples as f64
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::engine::light::{sources::facets::Facets, sources::triangle_tree::Clusters};
-    use crate::sampling::Key;
+    use crate::sampling::{Key, Sequence};
     use isolux_geometry::Normal;
     use std::f64::consts::TAU;
 

@@ -2,7 +2,7 @@
 
 use super::super::lighting::Lighting;
 use super::super::sources::{Arriving, Luminous, Source, SourceKind, Target, unoccluded_from};
-use super::area::mean;
+use super::measured::mean;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Transform, Vector};

@@ -1,5 +1,6 @@
 //! Light with its standard error, and the standard error asked for.
 
+use crate::engine::ray::Dice;
 use crate::units::Rgb;
 
 /// Independent replicates, whose spread tells the standard error of their mean.
@@ -68,4 +69,14 @@ pub(crate) struct Measured {
     pub(crate) lx: Rgb,
     /// Variance of the photometric value, lx2.
     pub(crate) variance: f64,
+}
+
+/// Mean of samples over a low-discrepancy sequence.
+pub(super) fn mean(samples: usize, dice: &mut Dice, mut one: impl FnMut(&mut Dice) -> Rgb) -> Rgb {
+    if samples == 1 {
+        return one(dice);
+    }
+    let sequence = dice.fork();
+    let sum: Rgb = (0..samples).map(|k| one(&mut Dice::new(sequence, k as u32))).sum();
+    sum / samples as f64
 }

@@ -4,6 +4,7 @@ mod adaptive;
 pub(super) mod area;
 mod clusters;
 mod estimate;
+mod extended;
 pub(super) mod luminous;
 mod many;
 pub(super) mod measured;
