@@ -46,7 +46,7 @@ impl Pilot<'_> {
     ) -> (Survey, usize, bool) {
         let mut look = self.look(request, go_on);
         if let Some(edge_m) = self.mesh.usual_edge_m.filter(|_| !look.is_smooth()) {
-            self.mesh.subdivision.bisect_to(edge_m, request.max_vertices);
+            self.mesh.subdivision.bisect_to(edge_m, self.mesh.most_first_vertices);
             look = self.look(request, go_on);
         }
         let most = request.most_for_indirect_light.unwrap_or(MOST_INDIRECT_VERTICES);

@@ -97,6 +97,8 @@ pub(super) struct Mesh {
     pub(super) least_edge_m: f64,
     /// The edge length of the usual first mesh, m, where the pilot starts with a coarser one.
     pub(super) usual_edge_m: Option<f64>,
+    /// The largest number of vertices of the usual first mesh.
+    pub(super) most_first_vertices: usize,
     /// Whether most vertices belong to objects of the scene, not to its walls.
     pub(super) has_many_things: bool,
     /// The largest number of vertices for indirect light; infinite until it is known.
@@ -198,7 +200,14 @@ struct FirstMesh {
     edge_m: f64,
     /// Whether most vertices belong to objects, not to walls.
     has_many_things: bool,
+    /// The largest number of vertices of a mesh with that edge length.
+    most: usize,
 }
+
+/// The largest ratio of the elements of a mesh to those with its edge length: bisection ends at edges between half of
+/// that length and all of it. Needles are the exception: their length falls by half with every second bisection, and
+/// their number would grow without bound where one reaches far away.
+const MOST_OF_EDGE: f64 = 4.0;
 
 /// The first mesh of a scene.
 fn first_mesh(scene: &Scene, request: &PilotRequest) -> FirstMesh {
@@ -213,11 +222,13 @@ fn first_mesh(scene: &Scene, request: &PilotRequest) -> FirstMesh {
     } else {
         edge_m
     };
-    subdivision.bisect_to(start_m, request.max_vertices);
+    let most = subdivision.vertex_count() + (MOST_OF_EDGE * (first + more)) as usize;
+    let most = request.max_vertices.min(most);
+    subdivision.bisect_to(start_m, most);
     if request.is_fitted && !without("room-scale") {
         bisect_to_scale(scene, &mut subdivision, request.max_vertices);
     }
-    FirstMesh { subdivision, edge_m, has_many_things: more > first }
+    FirstMesh { subdivision, edge_m, has_many_things: more > first, most }
 }
 
 impl<'s> Pilot<'s> {
@@ -226,7 +237,7 @@ impl<'s> Pilot<'s> {
         lighting: &'s Lighting<'s>,
         request: &PilotRequest,
     ) -> Self {
-        let FirstMesh { subdivision, edge_m, has_many_things } = first_mesh(scene, request);
+        let FirstMesh { subdivision, edge_m, has_many_things, most } = first_mesh(scene, request);
         let rays = Self::shared_rays(&subdivision, request.target);
         let has_noise = request.is_fitted && lighting.has_many() && lighting.is_measured_once();
         let bounds = scene.bvh().mesh().bounds();
@@ -241,6 +252,7 @@ impl<'s> Pilot<'s> {
             rays,
             least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
             usual_edge_m: (request.is_hybrid && !without("coarse-start")).then_some(edge_m),
+            most_first_vertices: most,
             has_many_things,
             most_for_indirect_light: f64::INFINITY,
             is_full: false,
