@@ -1,6 +1,7 @@
 //! `isolux audit`: an independent test of what a map claims.
 
 use crate::console::{facts, print, print_json, table};
+use crate::energy;
 use crate::failure::{Failure, Outcome};
 use crate::flags::AuditFlags;
 use crate::map_file;
@@ -8,7 +9,9 @@ use crate::quantity::{show_count, show_share, significant};
 use crate::rounded::with_error;
 use crate::shown::name;
 use isolux::engine::{self, AuditSettings};
-use isolux::map::{Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface};
+use isolux::map::{
+    Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface, EnergyBalance,
+};
 use serde::Serialize;
 
 /// Runs the subcommand.
@@ -29,11 +32,14 @@ pub(crate) fn run(flags: &AuditFlags, json: bool) -> Result<Outcome, Failure> {
             "{path}: there is nothing to audit: the map has no reported error, knows next to none of its surfaces, or has no light; solve it with more time"
         ))
     })?;
-    let outcome = if audit.contradicts { Outcome::CheckFailed } else { Outcome::Done };
+    let energy = energy::of_audit(&scene, &map, settings.seed);
+    let holds = energy.as_ref().is_none_or(EnergyBalance::holds) && !audit.contradicts;
+    let outcome = if holds { Outcome::Done } else { Outcome::CheckFailed };
     if json {
-        print_json(&Report { map: flags.map.display().to_string(), audit: &audit })?;
+        let map = flags.map.display().to_string();
+        print_json(&Report { map, audit: &audit, energy: energy.as_ref() })?;
     } else {
-        print(&text(&audit))?;
+        print(&(text(&audit) + &energy.as_ref().map_or(String::new(), energy::text)))?;
     }
     Ok(outcome)
 }
@@ -44,6 +50,8 @@ struct Report<'a> {
     map: String,
     #[serde(flatten)]
     audit: &'a Audit,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy: Option<&'a EnergyBalance>,
 }
 
 /// An audit for people: the verdict, the table of checks, where readings and paths differ most.

@@ -14,6 +14,7 @@ mod compare;
 mod console;
 mod demo;
 mod dimming;
+mod energy;
 mod engine_export;
 mod estimate;
 mod explain;

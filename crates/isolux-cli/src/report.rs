@@ -3,6 +3,7 @@
 use crate::arriving::FluxLost;
 use crate::audit;
 use crate::console::facts;
+use crate::energy;
 use crate::kept::LessKnown;
 use crate::lightmap;
 use crate::maintained::Maintained;
@@ -10,7 +11,7 @@ use crate::output::OutputPath;
 use crate::quantity::{show_count, show_seconds, show_share, significant};
 use crate::request::method_name;
 use isolux::engine::reference_lx;
-use isolux::map::{Audit, IlluminationMap, KnownSurface};
+use isolux::map::{Audit, EnergyBalance, IlluminationMap, KnownSurface};
 use isolux::scene::Scene;
 use serde::Serialize;
 
@@ -51,6 +52,9 @@ pub(crate) struct Report {
     /// Light that does not come to the scene, where that was looked at.
     #[serde(skip_serializing_if = "Option::is_none")]
     flux_lost: Option<FluxLost>,
+    /// Where the light goes, where that was looked at.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy: Option<EnergyBalance>,
     /// What a resumed run has come to that the map is not of: it was there before, and knows more.
     #[serde(skip_serializing_if = "Option::is_none")]
     kept_instead_of: Option<LessKnown>,
@@ -96,6 +100,7 @@ impl Report {
             seed: from.seed,
             map: output.path().display().to_string(),
             flux_lost: None,
+            energy: None,
             kept_instead_of: None,
             lightmap: None,
         }
@@ -109,6 +114,11 @@ impl Report {
     /// The same with a lightmap, if there is one.
     pub(crate) fn with_lightmap(self, lightmap: Option<lightmap::Report>) -> Self {
         Self { lightmap, ..self }
+    }
+
+    /// The same with where the light goes.
+    pub(crate) fn with_energy(self, energy: Option<EnergyBalance>) -> Self {
+        Self { energy, ..self }
     }
 
     /// The same with what of the light does not come to the scene.
@@ -157,6 +167,9 @@ impl Report {
         ]);
         if let Some(unshot) = self.unshot {
             all.push(("light unshot", show_share(unshot)));
+        }
+        if let Some(balance) = &self.energy {
+            all.push(("light, lm", energy::line(balance)));
         }
         if let Some(lost) = self.flux_lost.as_ref().and_then(FluxLost::text) {
             all.push(("light that reaches no surface", lost));

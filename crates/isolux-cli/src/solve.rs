@@ -3,6 +3,7 @@
 use crate::arriving::FluxLost;
 use crate::clock::Clock;
 use crate::console::{facts, print, print_json};
+use crate::energy;
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::{ProgressStyle, SolveFlags};
@@ -129,7 +130,8 @@ fn one(
         saved_run::keep(output, &solved.solution.state, true)?;
     }
     let report = Report::of((scene, &solved.solution.map), solved.solution.time_s, output);
-    let report = report.with_flux_lost(flux_lost);
+    let energy = energy::of_run(scene, &solved.solution.map);
+    let report = report.with_flux_lost(flux_lost).with_energy(energy);
     Ok(Written { outcome, report: report.with_lightmap(lightmap).instead_of(less) })
 }
 

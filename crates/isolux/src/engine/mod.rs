@@ -21,7 +21,7 @@ mod run;
 #[cfg(test)]
 mod tests;
 
-pub use audit::{AuditSettings, audit};
+pub use audit::{AuditSettings, audit, energy_balance};
 pub use combine::{Finer, FinerSettings, MixError, MixPart, Mixed, mix, mix_apart};
 pub use light::{Arrival, Highlighted, Highlights, ShadowRays, Shining, arrivals};
 pub use method::{

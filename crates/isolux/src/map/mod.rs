@@ -1,6 +1,7 @@
 //! Illumination maps: plain values.
 
 mod audit;
+mod energy;
 mod grid;
 mod hot_spots;
 mod illuminance;
@@ -9,6 +10,7 @@ mod standing;
 mod vertex_light;
 
 pub use audit::{Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface};
+pub use energy::{EnergyBalance, MeasuredFlux, SurfaceBalance};
 pub use grid::{Figure, GridFigures};
 pub use hot_spots::{HotSpots, KnownSurface};
 pub use illuminance::Illuminance;

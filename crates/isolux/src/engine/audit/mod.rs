@@ -17,6 +17,7 @@
 //! does not raise it.
 
 mod compared;
+mod energy;
 mod figures;
 mod places;
 
@@ -28,6 +29,7 @@ use crate::map::{Audit, AuditTrust, AuditedPlace, AuditedSurface, IlluminationMa
 use crate::sampling::Key;
 use crate::scene::Scene;
 use compared::{Compared, Comparison, compare};
+pub use energy::energy_balance;
 use figures::{Figures, readings, share, tail_index};
 pub(super) use figures::{MOST_AUDITS, trend};
 use places::{Places, Where};

@@ -6,6 +6,7 @@ mod anderson;
 mod arrivals;
 mod audit;
 mod backdrop;
+mod balance;
 mod bare;
 mod bright;
 mod carrying;
