@@ -2,6 +2,7 @@
 
 use crate::console::table;
 use crate::notes::{Note, note};
+use crate::quantity::significant;
 use crate::rounded::{to_error, with_error};
 use crate::shown;
 use isolux::engine::energy_balance;
@@ -12,6 +13,10 @@ use isolux::scene::Scene;
 const OF_A_RUN: u32 = 1 << 12;
 /// Particles for an audit that was asked for.
 const OF_AN_AUDIT: u32 = 1 << 16;
+
+/// Digits of fluxes, and the relative error from which these show it.
+const DIGITS: usize = 4;
+const SHOWN_ERROR: f64 = 1e-4;
 
 /// The balance for the report of a run; it warns where the map lacks light, or has too much. `None` where parallel light
 /// has no flux, and of maps whose error is not known.
@@ -32,8 +37,8 @@ pub(crate) fn of_audit(scene: &Scene, map: &IlluminationMap, seed: u64) -> Optio
 /// One line for the report of a run.
 pub(crate) fn line(balance: &EnergyBalance) -> String {
     let [absorbed, escaped] = [balance.absorbed, balance.escaped].map(lm);
-    let emitted = to_error(balance.emitted_lm, balance.absorbed.standard_error_lm);
-    let given_up = match balance.given_up.lm > 0.0 {
+    let emitted = significant(balance.emitted_lm, DIGITS);
+    let given_up = match balance.given_up.lm > SHOWN_ERROR * balance.emitted_lm {
         true => format!(", {} given up", lm(balance.given_up)),
         false => String::new(),
     };
@@ -80,10 +85,11 @@ pub(crate) fn text(balance: &EnergyBalance) -> String {
     format!("\n emitted  {}\n\n{}", line(balance), table(&header, &rows))
 }
 
+/// A flux, with its error where its digits show it.
 fn lm(flux: MeasuredFlux) -> String {
-    match flux.standard_error_lm > 0.0 {
+    match flux.standard_error_lm > SHOWN_ERROR * flux.lm {
         true => with_error(flux.lm, flux.standard_error_lm),
-        false => to_error(flux.lm, 0.0),
+        false => significant(flux.lm, DIGITS),
     }
 }
 
