@@ -37,6 +37,8 @@ struct Lamp<'a> {
 #[derive(Clone, Copy)]
 pub(super) struct MetLamp {
     pub(super) luminance_cd_m2: Rgb,
+    /// The density of the directions of looks that are sent to it, 1/sr.
+    pub(super) density: f64,
     pub(super) surface: Surface,
 }
 
@@ -111,6 +113,9 @@ impl Lamp<'_> {
             position: self.position,
             normal: Normal::Z,
         };
-        is_seen.then_some(MetLamp { luminance_cd_m2, surface })
+        let way = self.position - origin;
+        let towards = local(way).direction()?;
+        let density = way.length_squared() / self.area.seen_m2(towards);
+        is_seen.then_some(MetLamp { luminance_cd_m2, density, surface })
     }
 }

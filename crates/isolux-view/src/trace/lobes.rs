@@ -21,13 +21,11 @@ pub(super) struct Lobe {
     pub(super) direction: Direction,
     /// If it is one of many about the direction: the density of all of them there, 1/sr.
     pub(super) density: Option<f64>,
-    /// Whether it is wide enough for looks at luminaires without surface.
-    pub(super) shows_points: bool,
 }
 
 impl Lobe {
     const fn sharp(weight: Rgb, direction: Direction) -> Self {
-        Self { weight, direction, density: None, shows_points: false }
+        Self { weight, direction, density: None }
     }
 
     /// Whether it is one of many about the direction.
@@ -118,7 +116,7 @@ impl Rough<'_> {
             let direction = at.normal.to_direction().from_local(out.direction()?.to_vector());
             let (weight, density) = self.shown(at, view, out, direction)?;
             let (weight, density) = (weight / all, Some(density * all));
-            Some(Lobe { weight, direction, density, shows_points: self.shows_points() })
+            Some(Lobe { weight, direction, density })
         };
         lobes.extend(spread(facets, key).filter_map(lobe));
     }

@@ -172,6 +172,8 @@ struct Progress<'a> {
     of_emitter: f64,
     /// Whether a glossy surface lies on the way, or a faint mirror.
     blurred: bool,
+    /// Whether a glossy surface lies on the way.
+    is_glossy: bool,
     /// The pixel that is looked through.
     pixel: usize,
     /// Mirrors and panes on the way.
@@ -219,10 +221,20 @@ impl Looker<'_> {
         facets: u32,
         (pixel, key): (usize, Key),
     ) -> Look {
-        let (weight, blurred, path) = (Rgb::WHITE, false, 0);
+        let (weight, blurred, is_glossy, path) = (Rgb::WHITE, false, false, 0);
         let of_emitter = 1.0;
-        let start =
-            Progress { depth: 0, facets, near, weight, of_emitter, blurred, pixel, path, key };
+        let start = Progress {
+            depth: 0,
+            facets,
+            near,
+            weight,
+            of_emitter,
+            blurred,
+            is_glossy,
+            pixel,
+            path,
+            key,
+        };
         match (&meeting.hit, meeting.lamp) {
             (_, Some(lamp)) => Look::at_lamp(lamp),
             (Some(hit), None) => self.at(hit, meeting.direction, start),
@@ -382,10 +394,9 @@ impl Looker<'_> {
     ) -> Look {
         let ray = self.onwards(hit, lobe.direction);
         let found = self.scene.bvh().closest_hit(&ray);
-        // Looks at luminaires tell what a wider lobe shows of them.
-        if let Some(lamp) =
-            self.lamp(&ray, lobe.direction, found.as_ref()).filter(|_| !lobe.shows_points)
-        {
+        // Behind gloss, looks at luminaires tell of their images.
+        let lamp = self.lamp(&ray, lobe.direction, found.as_ref()).filter(|_| !progress.is_glossy);
+        if let Some(lamp) = lamp.and_then(|lamp| told(lamp, lobe, highlighted)) {
             return Look::at_lamp(lamp);
         }
         let Some(found) = found else { return Look::NOTHING };
@@ -399,6 +410,7 @@ impl Looker<'_> {
             near: &[],
             of_emitter,
             blurred: progress.blurred || lobe.is_blurred() || is_faint,
+            is_glossy: progress.is_glossy || lobe.is_blurred(),
             path: progress.path.wrapping_mul(4).wrapping_add(index as u32 + 1),
             key: progress.key.with(1 + index as u64),
             ..progress
@@ -452,6 +464,16 @@ fn highlights(
         sum_cd_m2 += shown.sum();
     });
     sum_cd_m2
+}
+
+/// What a look along a lobe tells of a luminous area: all of it in mirrors, the share of the balance heuristic beside
+/// looks at luminaires. `None` where lobes are blurred and there are no such looks: hardly one would meet it, and far
+/// too brightly.
+fn told(lamp: MetLamp, lobe: &Lobe, highlighted: Option<&Highlighted<'_>>) -> Option<MetLamp> {
+    let Some(density) = lobe.density else { return Some(lamp) };
+    let highlighted = highlighted.filter(|highlighted| highlighted.looks_at_luminaires())?;
+    let share = density / (density + highlighted.density_of_looks(lamp.density));
+    Some(MetLamp { luminance_cd_m2: lamp.luminance_cd_m2 * share, ..lamp })
 }
 
 /// The normal on one side of a surface.

@@ -7,6 +7,7 @@
 
 use super::lighting::Lighting;
 use super::sample::area::Shape;
+use super::sample::luminous::LuminousLook;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::{Key, Sequence};
 use crate::scene::{Material, Scene};
@@ -37,7 +38,7 @@ pub struct Highlighted<'h> {
 /// Light that comes to a place from a direction.
 #[derive(Clone, Copy, Debug)]
 pub enum Shining {
-    /// Light of an emitting surface.
+    /// Light of an emitting surface or of a luminous area.
     Surface {
         /// Luminance, cd/m2.
         luminance_cd_m2: Rgb,
@@ -74,7 +75,9 @@ impl<'s> Highlights<'s> {
         let at = SurfacePoint::from_hit(self.scene, hit);
         let count = self.scene.area_luminaires().len();
         let shapes = (0..count).map(|number| self.lighting.shape(number, &at)).collect();
-        let samples = (EMITTER_SAMPLES / count.max(1)).clamp(1, looks.max(1) as usize);
+        let luminous = if self.has_points { self.lighting.luminous().count() } else { 0 };
+        let sources = (count + luminous).max(1);
+        let samples = (EMITTER_SAMPLES / sources).clamp(1, looks.max(1) as usize);
         Highlighted { highlights: self, at, shapes, samples }
     }
 }
@@ -100,10 +103,32 @@ impl Highlighted<'_> {
             }
         }
         if *has_points {
-            let dice = &mut Dice::new(Sequence::new(key.with(self.shapes.len() as u64)), 0);
+            for (number, luminous) in lighting.luminous().enumerate() {
+                let sequence = Sequence::new(key.with((areas.len() + number) as u64));
+                for sample in 0..self.samples {
+                    let dice = &mut Dice::new(sequence, sample as u32);
+                    let Some(look) = lighting.look_at_area(luminous, &self.at, dice) else {
+                        continue;
+                    };
+                    let LuminousLook { direction, luminance_cd_m2, density } = look;
+                    let density = self.density_of_looks(density);
+                    found(direction, Shining::Surface { luminance_cd_m2, density });
+                }
+            }
+            let dice = &mut Dice::new(Sequence::new(key.with(u64::MAX)), 0);
             lighting
                 .points_at(&self.at, dice, |direction, lx| found(direction, Shining::Point(lx)));
         }
+    }
+
+    /// Whether looks are sent to luminaires without surface.
+    pub fn looks_at_luminaires(&self) -> bool {
+        self.highlights.has_points
+    }
+
+    /// Density of the directions to a source over all samples together, for that of one, 1/sr.
+    pub fn density_of_looks(&self, of_one: f64) -> f64 {
+        of_one * self.samples as f64
     }
 
     /// Density of the direction to a hit among those drawn to its emitting surface, over all

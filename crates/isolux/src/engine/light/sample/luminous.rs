@@ -5,7 +5,7 @@ use super::super::sources::{Arriving, Luminous, Source, SourceKind, Target, unoc
 use super::measured::mean;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
-use isolux_geometry::{Point, Transform, Vector};
+use isolux_geometry::{Direction, Point, Transform, Vector};
 
 /// Places along each side of an area for its light without obstacles: this many times its radius over the distance of
 /// its nearest place. The midpoint rule errs in proportion to the square of their spacing over that distance, a fourth.
@@ -15,6 +15,14 @@ const MOST_PLACES_ALONG_A_SIDE: f64 = 24.0;
 
 /// The fraction of the golden ratio.
 const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_8;
+
+/// What a look at a luminous area sees.
+pub(crate) struct LuminousLook {
+    pub(crate) direction: Direction,
+    pub(crate) luminance_cd_m2: Rgb,
+    /// The density of the directions of such looks, 1/sr.
+    pub(crate) density: f64,
+}
 
 /// A source that has a luminous area, or an image of one.
 #[derive(Clone, Copy)]
@@ -41,6 +49,14 @@ impl<'a> LuminousSource<'a> {
         let [a, b] = dice.pair();
         let c = if self.area.area.is_flat() { 0.0 } else { dice.pair()[0] };
         self.at([a, b, c])
+    }
+
+    /// The density of the directions to places drawn as [`LuminousSource::place`] draws them, 1/sr, as if they were even
+    /// over the outline as seen from there: exact for flat areas.
+    fn density(&self, from: Point) -> Option<f64> {
+        let way = self.position - from;
+        let local = self.local_from_world.vector(way).direction()?;
+        Some(way.length_squared() / self.area.area.seen_m2(local))
     }
 
     /// The distance of a point from the box around the area, m.
@@ -89,6 +105,29 @@ impl Lighting<'_> {
         let source = luminous.source;
         let in_view = |target: Target| self.chain_is_in_view(&source.chain, at, target);
         unoccluded_from(self.scene, source, place, at, in_view)
+    }
+
+    /// The luminous areas themselves, without their images.
+    pub(crate) fn luminous(&self) -> impl Iterator<Item = LuminousSource<'_>> {
+        self.sources.iter().filter(|source| source.chain.is_empty()).filter_map(LuminousSource::of)
+    }
+
+    /// A look at a luminous area from a place; `None` where nothing is seen.
+    pub(crate) fn look_at_area(
+        &self,
+        luminous: LuminousSource<'_>,
+        at: &SurfacePoint,
+        dice: &mut Dice,
+    ) -> Option<LuminousLook> {
+        let place = luminous.place(dice);
+        let arriving = self.unhidden_from(luminous, place, at)?;
+        let direction = (place - at.point).direction()?;
+        let density = luminous.density(at.point)?;
+        let share = self.visibility_in_view(&[], at, arriving.target, None);
+        let facing_lx = arriving.illuminance_lx * share / direction.cos(at.shading);
+        let luminance_cd_m2 = facing_lx * density;
+        let is_seen = !share.is_black() && density.is_finite();
+        is_seen.then_some(LuminousLook { direction, luminance_cd_m2, density })
     }
 
     /// Illuminance from a luminous area without obstacles, from places that are the same everywhere, so that it

@@ -50,16 +50,17 @@ impl Lighting<'_> {
         self.sources.iter().map(|s| self.lit_by(s, at, samples, dice)).sum()
     }
 
-    /// Calls `found` for every luminaire without surface, and every image of one, whose light reaches a
-    /// place, of a luminous area from one place. It receives the direction to the source, and the illuminance of a
-    /// surface that faces it.
+    /// Calls `found` for every point luminaire, every image of one, and one place of every image of a luminous area,
+    /// whose light reaches a place. It receives the direction to the source, and the illuminance of a surface that
+    /// faces it.
     pub(crate) fn points_at(
         &self,
         at: &SurfacePoint,
         dice: &mut Dice,
         mut found: impl FnMut(Direction, Rgb),
     ) {
-        for source in self.sources.iter().filter(|source| !source.is_area()) {
+        let is_told = |s: &&Source| !s.has_extent() || !s.is_area() && !s.chain.is_empty();
+        for source in self.sources.iter().filter(is_told) {
             let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
             let arriving = match LuminousSource::of(source) {
                 Some(luminous) => self.unhidden_from(luminous, luminous.place(dice), at),
