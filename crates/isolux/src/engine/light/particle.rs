@@ -20,6 +20,9 @@ const MOST_SCATTERINGS: f64 = 4096.0;
 /// suffices for light enclosed by such surfaces; among others this one does. The light given up is counted.
 const SCATTERINGS_WITHOUT_LOSS: f64 = 64.0;
 
+/// Light so strong that Russian roulette ends no path that carries it.
+const SPARED: Rgb = Rgb::grey(f64::MAX);
+
 /// Number of scatterings after which a particle is given up.
 pub(crate) fn scatterings(scene: &Scene) -> u32 {
     let reflected = |finish: &Finish| {
@@ -94,11 +97,21 @@ impl Particle {
 
     /// Goes on without diffuse reflection; `false` when the particle is absorbed.
     pub(crate) fn scatter_specular(&mut self, scene: &Scene, lighting: &Lighting) -> bool {
-        let Some(at) = self.at else { return false };
-        let body = &scene.material(at.triangle).body;
         // Russian roulette is relative to the present flux: a share of one always survives.
         let unit = self.flux_lm * (1.0 / self.flux_lm.max_channel().max(f64::MIN_POSITIVE));
-        match specular_step(body, &at, self.direction, unit, &mut self.dice) {
+        self.step_specular(scene, lighting, unit)
+    }
+
+    /// Goes on without diffuse reflection and without Russian roulette: the flux falls instead. `false` where nothing
+    /// is reflected.
+    pub(crate) fn follow_specular(&mut self, scene: &Scene, lighting: &Lighting) -> bool {
+        self.step_specular(scene, lighting, SPARED)
+    }
+
+    fn step_specular(&mut self, scene: &Scene, lighting: &Lighting, carried: Rgb) -> bool {
+        let Some(at) = self.at else { return false };
+        let body = &scene.material(at.triangle).body;
+        match specular_step(body, &at, self.direction, carried, &mut self.dice) {
             Some(next) => {
                 self.chain.pass((&at, self.direction), body, lighting, &next);
                 self.go(next);

@@ -70,8 +70,10 @@ pub(crate) struct Hybrid<'p, 's> {
     rays_for_bare: u32,
     /// The check points, then the vertices that gather for the bare map.
     fresh_rows: Vec<Gatherer>,
-    /// A few rays of every vertex, the same in all increments.
-    reader: Operator,
+    /// A few rays of every vertex, the same in all increments; `None` before the first one.
+    reader: Option<Operator>,
+    /// The number of these rays.
+    readers: u32,
     /// The vertices of the elements that indirect light lives on.
     corners: Vec<[u32; 3]>,
     /// The residual of direct light between vertices, where rays read direct light.
@@ -146,7 +148,6 @@ impl<'p, 's> Hybrid<'p, 's> {
             DirectResidual::of(&over, goal * plan.light.reference_lx, key.with(u64::MAX - 2));
         let ahead = VecDeque::new();
         let readers = READERS.min((most / OF_READERS).max(1));
-        let reader = reader(plan, &rows, (readers, key.with(u64::MAX)));
         let corners = |error: &LeafError| plan.mesh.subdivision.node(error.node).0.vertices;
         let corners = plan.errors.of_elements.iter().map(corners).collect();
         Self {
@@ -155,7 +156,8 @@ impl<'p, 's> Hybrid<'p, 's> {
             rays_for_bare,
             rows,
             fresh_rows,
-            reader,
+            reader: None,
+            readers,
             corners,
             kept,
             particles,
@@ -196,15 +198,19 @@ impl<'p, 's> Hybrid<'p, 's> {
         self.rows.get(vertex).map_or_else(beyond, |row| row.rays)
     }
 
-    /// Increment `index`; `None` if its deadline passes meanwhile. Small increments that will be needed
-    /// anyway are made beside it, if they are complete by a deadline of their own. One small increment alone
-    /// would leave threads idle.
+    /// Increment `index`; `None` if the deadline passes meanwhile. Small increments that will be needed
+    /// anyway are made beside it, if they are complete by then. One small increment alone would leave threads
+    /// idle.
     pub(crate) fn increment(
         &mut self,
         index: u64,
         checks: &[Check],
-        [own, of_others]: [Deadline; 2],
+        deadline: Deadline,
     ) -> Option<Increment> {
+        if self.reader.is_none() {
+            let with = (self.readers, self.key.with(u64::MAX));
+            self.reader = Some(reader(self.plan, &self.rows, with, deadline)?);
+        }
         if self.ahead.is_empty() {
             let next = (index + 1).next_multiple_of(FEWEST_TO_MISS);
             let is_ahead = next <= BELIEVED_INCREMENTS && !without("increments-ahead");
@@ -212,8 +218,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             let rows = self.rows.iter().chain(&self.fresh_rows);
             let rays = rows.map(|row| u64::from(row.rays)).sum::<u64>() + u64::from(self.particles);
             let count = (until - index).min((RAYS_AHEAD / rays.max(1)).max(1)) as usize;
-            let deadline = |k: usize| if k == 0 { own } else { of_others };
-            let one = |k: usize| self.made(index + k as u64, checks, deadline(k));
+            let one = |k: usize| self.made(index + k as u64, checks, deadline);
             let made: Vec<_> = (0..count).into_par_iter().with_max_len(1).map(one).collect();
             self.ahead.extend(made.into_iter().map_while(|increment| increment));
         }
@@ -277,7 +282,8 @@ impl<'p, 's> Hybrid<'p, 's> {
     /// even out the views of few rays.
     fn passed_on(&self, light: &[Rgb]) -> Vec<f64> {
         let plan = self.plan;
-        let mut passed_on = self.reader.reflected(light);
+        let reader = self.reader.as_ref().expect("made before the first increment");
+        let mut passed_on = reader.reflected(light);
         plan.mesh.waiting.fill(&mut passed_on);
         let mut passed_on: Vec<f64> = passed_on.iter().map(|light| light.luminance()).collect();
         for _ in 0..SMOOTHINGS {
@@ -356,13 +362,18 @@ fn shared_by_noise(
     rows.into_iter().zip(shared.rays).map(with).collect()
 }
 
-/// A few rays of every vertex that read indirect light alone.
-fn reader(plan: &Plan, rows: &[Gatherer], (rays, key): (u32, Key)) -> Operator {
+/// A few rays of every vertex that read indirect light alone; `None` if the deadline passes.
+fn reader(
+    plan: &Plan,
+    rows: &[Gatherer],
+    (rays, key): (u32, Key),
+    deadline: Deadline,
+) -> Option<Operator> {
     let dark = vec![Rgb::BLACK; plan.mesh.elements.vertices().len()];
     let direct = DirectAtEnds::Read { values: &dark, level: u32::MAX };
     let gathering = Gathering { direct, ..Gathering::of(plan, &plan.light.direct) };
     let few: Vec<Gatherer> = rows.iter().map(|row| row.with_rays(row.rays.min(rays))).collect();
-    gathering.operator(&few, |row| key.with(row as u64))
+    gathering.operator_until(deadline, &few, |row| key.with(row as u64))
 }
 
 /// The direct light of an increment at vertices and check points; that of the plan if it is measured once.

@@ -171,6 +171,9 @@ impl CausticNoise {
     }
 }
 
+/// The share of the flux below which a reflection is weak: roulette follows stronger ones always.
+const WEAK_SHARE: f64 = 0.5;
+
 /// Particles that share all light, until they are reflected diffusely.
 pub(crate) struct Flights<'a> {
     scene: &'a Scene,
@@ -228,7 +231,7 @@ impl<'a> Flights<'a> {
         let Some(aimed) = aimed else { return (0, None) };
         let flux_lm = emission.flux_lm() / f64::from(*count);
         let mut particle = Particle::sent(&aimed.emitted, flux_lm, dice, *most);
-        let mut rays = 1;
+        let (mut rays, mut is_spared) = (1, true);
         while let Some(at) = particle.advance(scene) {
             if rays == 1
                 && let Some(aim) = self.aim
@@ -242,10 +245,17 @@ impl<'a> Flights<'a> {
             if opaque && !particle.is_covered(lighting) {
                 deposit(&at, particle.flux_lm);
             }
-            // Diffuse reflection ends a caustic.
-            if !particle.scatter_specular(scene, lighting) {
+            // Diffuse reflection ends a caustic. Roulette at a weak reflection spares each particle once: most would
+            // end before they bring any light.
+            let before_lm = particle.flux_lm.max_channel();
+            let goes_on = match is_spared {
+                true => particle.follow_specular(scene, lighting),
+                false => particle.scatter_specular(scene, lighting),
+            };
+            if !goes_on {
                 break;
             }
+            is_spared &= particle.flux_lm.max_channel() >= WEAK_SHARE * before_lm;
             if particle.is_given_up() {
                 return (rays, Some(particle.flux_lm));
             }

@@ -51,8 +51,10 @@ impl Pilot<'_> {
             }
             started = Instant::now();
         }
+        let tail = &rows[head..];
+        let tail = if is_first { self.affordable(tail, request) } else { tail.to_vec() };
         let gathering = self.gathering(elements, level, &self.near.standings);
-        let tail = gathering.operator(&rows[head..], |_| key);
+        let tail = gathering.operator(&tail, |_| key);
         let rays = tail.rays as f64;
         operator.append(tail);
         self.traced += operator.rays;
@@ -80,6 +82,18 @@ impl Pilot<'_> {
             .for_each(|&v| self.indirect.gathered[v as usize] = self.mesh.carriers.is_active(v));
         self.complete_beset_carriers(gatherers);
         self.indirect.solved_nodes = self.mesh.subdivision.node_count() as u32;
+    }
+
+    /// Receivers of the first survey, with fewer rays each where time is short. The pilot then counts as incomplete.
+    fn affordable(&mut self, tail: &[Gatherer], request: &PilotRequest) -> Vec<Gatherer> {
+        let rays = |some: &[Gatherer]| some.iter().map(|g| f64::from(g.rays)).sum::<f64>();
+        let share = request.deadline.share_of(self.costs.rays.of(rays(tail)));
+        self.is_whole &= share == 1.0;
+        let fewer = |g: &Gatherer| match g.rays {
+            0 => *g,
+            rays => g.with_rays(((f64::from(rays) * share) as u32).max(1)),
+        };
+        tail.iter().map(fewer).collect()
     }
 
     /// Finds the geometry close to the vertices of the first mesh, and selects the carriers.

@@ -2,6 +2,7 @@
 
 use crate::elements::Elements;
 use crate::engine::mesh::{LeafError, TrustLevels, WorstElements, trust};
+use crate::engine::ray::Deadline;
 
 /// The allowed interpolation error of indirect light, as a share of the accuracy goal.
 const DISCRETIZATION_SHARE: f64 = 0.5;
@@ -41,6 +42,8 @@ pub(crate) struct PilotRequest {
     pub(crate) most_for_indirect_light: Option<usize>,
     /// The shortest edge that is bisected, m, if set by hand.
     pub(crate) least_edge_m: Option<f64>,
+    /// The end of the time for the first survey. Where it is short, fewer rays gather.
+    pub(crate) deadline: Deadline,
 }
 
 /// The weights of errors, by the light of their surroundings.

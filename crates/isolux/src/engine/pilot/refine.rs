@@ -45,7 +45,8 @@ impl Pilot<'_> {
         go_on: &mut GoOn<'_>,
     ) -> (Survey, usize, bool) {
         let mut look = self.look(request, go_on);
-        if let Some(edge_m) = self.mesh.usual_edge_m.filter(|_| !look.is_smooth()) {
+        if let Some(edge_m) = self.mesh.usual_edge_m.filter(|_| self.is_whole && !look.is_smooth())
+        {
             self.mesh.subdivision.bisect_to(edge_m, self.mesh.most_first_vertices);
             look = self.look(request, go_on);
         }

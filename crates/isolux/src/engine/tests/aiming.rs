@@ -1,8 +1,9 @@
 //! Particles aimed at specular surfaces bring what those let go bring.
 
 use super::*;
-use crate::engine::light::{Emission, Lighting};
+use crate::engine::light::{Emission, Lighting, Particle};
 use crate::engine::particle::{Aim, Flights};
+use crate::sampling::Sequence;
 use crate::scene::{Body, Dielectric, Gloss};
 use std::cell::Cell;
 
@@ -92,4 +93,48 @@ fn where_nothing_is_specular_nothing_is_aimed_at() {
         vec![isotropic([0.5; 3], 1.0)],
     );
     assert!(Aim::new(&scene, &Emission::new(&scene).unwrap()).is_none());
+}
+
+/// Flux that so many particles bring with roulette at every reflection, lm.
+fn brought_by_roulette((scene, lighting): (&Scene, &Lighting), count: u32, key: Key) -> f64 {
+    let emission = Emission::new(scene).unwrap();
+    let mut all_lm = 0.0;
+    for index in 0..count {
+        let sent = Particle::emit(&emission, Sequence::new(key), index, count, 64);
+        let mut particle = sent.unwrap();
+        while particle.advance(scene).is_some() {
+            if !particle.is_covered(lighting) {
+                all_lm += particle.flux_lm.luminance();
+            }
+            if !particle.scatter_specular(scene, lighting) {
+                break;
+            }
+        }
+    }
+    all_lm
+}
+
+#[test]
+fn weak_gloss_ends_no_particle_before_it_brings_light() {
+    let gloss = Some(Gloss { f0: Rgb::grey(0.04), alpha: 0.25 });
+    let finish = Finish { gloss, ..Finish::diffuse(Rgb::grey(0.5)) };
+    let materials = vec![Material::one_sided("plastic", finish)];
+    let scene = scene(inward_box([2.0; 3], 0), materials, vec![isotropic([1.0; 3], 1.0)]);
+    let lighting = Lighting::new(&scene);
+    let count = 1 << 12;
+    let flights =
+        |k: u64| Flights::new((&scene, &lighting), None, count, Key::new(7).with(k)).unwrap();
+    let brings = |index: &u32| {
+        let brings = Cell::new(false);
+        flights(0).fly(*index, |_, _| brings.set(true));
+        brings.get()
+    };
+    // Facets send few below the surface.
+    assert!((0..count).filter(brings).count() > count as usize / 10 * 9);
+    let spared = (0..32).map(|k| brought(&flights(k), count)[0]);
+    let (found, own) = mean_and_error(spared);
+    let by_roulette = |k: u64| brought_by_roulette((&scene, &lighting), count, Key::new(8).with(k));
+    let (expected, error) = mean_and_error((0..32).map(by_roulette));
+    assert!((found - expected).abs() < SIGMAS * error.hypot(own), "{found} {expected}");
+    assert!(own < 0.5 * error, "{own} {error}");
 }

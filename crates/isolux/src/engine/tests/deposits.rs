@@ -7,7 +7,7 @@ use crate::engine::light::{Emission, Lighting};
 use crate::engine::method::{Forward, Tally};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, SurfacePoint};
+use crate::engine::ray::{Accumulator, Deadline, SurfacePoint};
 
 /// Deposits an illuminance over all elements, on a fine lattice of each.
 fn light_up(plan: &Plan, tally: &Tally, lux: impl Fn(Point) -> f64) -> f64 {
@@ -109,6 +109,7 @@ fn particles_carry_the_flux_and_what_is_reflected() {
         max_vertices: 150,
         most_for_indirect_light: None,
         least_edge_m: None,
+        deadline: Deadline::NEVER,
     };
     let (lx, areas_m2) = forward(&room(), &request);
     let arriving_lm: f64 = lx.iter().zip(&areas_m2).map(|(e, a)| e * a).sum();
@@ -133,6 +134,7 @@ fn particles_light_all_vertices() {
         max_vertices: 3000,
         most_for_indirect_light: None,
         least_edge_m: None,
+        deadline: Deadline::NEVER,
     };
     let (lx, _) = forward(&room(), &request);
     let dark = lx.iter().filter(|&&e| e == 0.0).count();

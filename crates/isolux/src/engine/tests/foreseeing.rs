@@ -6,8 +6,9 @@ use crate::engine::gather::Unlit;
 use crate::engine::light::Lighting;
 use crate::engine::pilot::{Costs, EachIncrement, GoOn, Outlook, PilotRequest, Round, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::{SolveRequest, Stage, Watch, foresee, solve};
-use std::time::Duration;
+use crate::engine::ray::Deadline;
+use crate::engine::{Solution, SolveRequest, Stage, Watch, foresee, solve};
+use std::time::{Duration, Instant};
 
 /// A thousand carriers of two thousand vertices that have gathered, good enough, at a microsecond a ray.
 fn known() -> (Outlook, Costs) {
@@ -206,4 +207,41 @@ fn a_dry_run_foresees_the_elements_of_the_run() {
     assert!(seen.finish.is_some());
     let endless = SolveRequest { accuracy: None, ..request };
     assert_eq!(foresee(&scene, &endless, Duration::ZERO).unwrap().finish, None, "no goal, no end");
+}
+
+#[test]
+fn a_first_survey_without_time_takes_a_ray_of_each_place() {
+    let scene = furnished();
+    let lighting = Lighting::new(&scene);
+    let with = |deadline: Deadline| {
+        let request = PilotRequest { deadline, ..usual_request() };
+        pilot(&scene, &lighting, &request, &mut Unlit::default(), &mut |_| false)
+    };
+    let (whole, cut) = (with(Deadline::NEVER), with(Deadline(Some(Instant::now()))));
+    assert!(cut.rays < whole.rays, "{} of {}", cut.rays, whole.rays);
+    let mean = |plan: &Plan| {
+        let light = plan.light.guess.iter().map(|light| light.luminance());
+        light.sum::<f64>() / plan.light.guess.len() as f64
+    };
+    // One ray of each of a few hundred vertices tells their mean to some hundredths.
+    assert!((mean(&cut) / mean(&whole) - 1.0).abs() < 0.2, "{} {}", mean(&cut), mean(&whole));
+}
+
+#[test]
+fn a_run_without_time_has_the_light_of_its_pilot_and_says_that_its_error_is_unknown() {
+    let scene = room();
+    let of = |time_limit: Option<Duration>| {
+        let request = SolveRequest { accuracy: Some(0.02), time_limit, ..SolveRequest::default() };
+        solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap()
+    };
+    let (whole, cut) = (of(None), of(Some(Duration::ZERO)));
+    assert!(cut.map.provenance.accuracy.is_none() && !cut.map.provenance.complete);
+    assert_eq!(cut.state.increments, 0, "no other run goes on from the light of a pilot");
+    let mean = |solution: &Solution| {
+        let known: Vec<f64> =
+            solution.map.values.iter().flatten().map(|light| light.illuminance_lx()).collect();
+        known.iter().sum::<f64>() / known.len() as f64
+    };
+    let ratio = mean(&cut) / mean(&whole);
+    assert!((0.7..1.4).contains(&ratio), "{ratio}: means over different vertices");
 }

@@ -203,7 +203,7 @@ fn noise_that_readings_have_in_common_is_told_at_vertices() {
     let operator = gathering.operator(&rows, |row| Key::new(77).with(row as u64));
     let (mut read, mut told) = (vec![Vec::new(); 3], vec![Vec::new(); 3]);
     for index in 0..INCREMENTS {
-        let increment = hybrid.increment(index, &[], [Deadline::NEVER; 2]).unwrap();
+        let increment = hybrid.increment(index, &[], Deadline::NEVER).unwrap();
         let light: Vec<Rgb> =
             increment.receivers[..plan.mesh.indirect_vertices].iter().map(|s| s.indirect).collect();
         for (k, lx) in operator.reflected(&light).into_iter().enumerate() {

@@ -9,7 +9,7 @@ use crate::engine::method::deposit;
 use crate::engine::particle::{ElementParts, PARTS, Squared, part_of, read_in_parts, samples};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, Noise};
+use crate::engine::ray::{Accumulator, Deadline, Noise};
 use crate::map::Standing;
 use crate::scene::{Body, Dielectric};
 
@@ -143,6 +143,7 @@ fn request(target: f64) -> PilotRequest {
         max_vertices: 100_000,
         most_for_indirect_light: None,
         least_edge_m: None,
+        deadline: Deadline::NEVER,
     }
 }
 

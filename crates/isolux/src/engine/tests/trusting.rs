@@ -139,6 +139,7 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
         max_vertices: 20_000,
         most_for_indirect_light: Some(200),
         least_edge_m: None,
+        deadline: Deadline::NEVER,
     };
     let plan = pilot(&scene, &lighting, &request, &mut Unlit::default(), &mut |_| true);
     let at = plan.expected_lx(plan.trust());

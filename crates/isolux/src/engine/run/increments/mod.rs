@@ -153,13 +153,13 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     /// Adds one increment and returns the number of rays traced; `None` if its deadline passes before. The first
-    /// increment is always completed.
+    /// increment is always completed, except that of `hybrid`, whose pilot knows the light.
     pub(crate) fn increment(&mut self, end: Deadline) -> Option<u64> {
         let index = self.sums.increments;
         let deadline = if index > 0 { end } else { Deadline::NEVER };
         let effort = match &mut self.engine {
             Engine::Hybrid(hybrid) => {
-                let made = hybrid.increment(index, &self.checks.points, [deadline, end])?;
+                let made = hybrid.increment(index, &self.checks.points, end)?;
                 self.sums.add(made.receivers);
                 self.checks.sums.add(made.checks);
                 self.checks.lacking.add(element_parts::samples(&made.lacking));
@@ -180,6 +180,18 @@ impl<'p, 's> Work<'p, 's> {
         let direct = Rgb::grey(effort.given_up_lx);
         self.given_up.add(std::iter::once(Sample { direct, ..Sample::default() }));
         Some(effort.rays)
+    }
+
+    /// Takes the light of the pilot for the first increment. Nothing is known of its error.
+    pub(crate) fn take_light_of_pilot(&mut self) {
+        let indirect = self.plan.prolongate(&self.plan.light.guess);
+        let light = self.plan.light.direct.iter().zip(indirect);
+        let sample =
+            |(&direct, indirect): (&Rgb, Rgb)| Sample { direct, indirect, ..Sample::default() };
+        self.sums.add(light.map(sample));
+        self.checks.sums.add(vec![Sample::default(); self.checks.sums.sums.len()]);
+        self.checks.lacking.add(vec![Sample::default(); self.checks.lacking.sums.len()]);
+        self.given_up.add(std::iter::once(Sample::default()));
     }
 
     /// The mean of indirect light and its bound, lx, if the mean exceeds the energy bound.

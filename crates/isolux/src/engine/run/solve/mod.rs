@@ -146,10 +146,10 @@ impl<'s> Run<'s, '_> {
             self.rays = state.rays;
         }
         let pace = Pace { started_s: self.elapsed_s(), before: work.sums.increments };
-        let whole_mesh = saved.is_some() || !self.cut;
         let allowed = energy_bound::Allowed::of(plan);
         loop {
             self.stopped |= !self.advance(&mut work);
+            let whole_mesh = saved.is_some() || !self.cut;
             if let Some([mean_lx, allowed_lx]) = work.beyond_energy(&allowed) {
                 return Err(SolveError::MoreThanEnergy { mean_lx, allowed_lx });
             }

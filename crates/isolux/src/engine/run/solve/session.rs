@@ -143,7 +143,14 @@ impl<'s, 'r> Run<'s, 'r> {
             max_vertices: self.request.most_receivers(),
             most_for_indirect_light: by_hand.max_receivers.map(|most| most as usize),
             least_edge_m: by_hand.min_element_m,
+            deadline: self.end_of_first_survey(),
         }
+    }
+
+    /// The end of the time for the first survey of a pilot. The elements of a saved run are always completed.
+    fn end_of_first_survey(&self) -> Deadline {
+        let limit = self.request.time_limit.filter(|_| self.stage != self.saved_stage);
+        Deadline(limit.and_then(|limit| self.started.checked_add(limit.mul_f64(PILOT_SHARE))))
     }
 
     pub(super) fn pilot(
@@ -259,7 +266,9 @@ impl<'s, 'r> Run<'s, 'r> {
     /// The increments with fewer rays each, if the time left is too short to know the error of the map. The run then
     /// counts as cut short, like one whose mesh is.
     pub(super) fn affordable<'p>(&mut self, mut work: Work<'p, 's>) -> Work<'p, 's> {
-        let Some(limit) = self.request.time_limit else { return work };
+        let Some(limit) = self.request.time_limit.filter(|_| !self.out_of_time()) else {
+            return work;
+        };
         let Some(pace_s) = work.pace_s() else { return work };
         let left_s = (limit.as_secs_f64() - self.elapsed_s()).max(0.0);
         let too_slow = pace_s * BELIEVED_INCREMENTS as f64 / left_s;
@@ -271,8 +280,8 @@ impl<'s, 'r> Run<'s, 'r> {
         Work::new(work.plan, self.request, self.mesh_for(), halvings as u32)
     }
 
-    /// Adds one increment. Returns `false` if the run is stopped or its time is over before; the first increment is
-    /// always completed.
+    /// Adds one increment. Returns `false` if the run is stopped or its time is over before. If it is over before the
+    /// first increment, the map is that of the pilot, which no other run can continue.
     pub(super) fn advance(&mut self, work: &mut Work) -> bool {
         if self.stopped && work.sums.increments > 0 {
             return false;
@@ -280,6 +289,10 @@ impl<'s, 'r> Run<'s, 'r> {
         let end = self.request.time_limit.and_then(|limit| self.started.checked_add(limit));
         let rays = work.increment(Deadline(end));
         self.rays += rays.unwrap_or(0);
+        if rays.is_none() && work.sums.increments == 0 {
+            self.cut = true;
+            work.take_light_of_pilot();
+        }
         rays.is_some()
     }
 
