@@ -205,9 +205,12 @@ struct FirstMesh {
 }
 
 /// The largest ratio of the elements of a mesh to those with its edge length: bisection ends at edges between half of
-/// that length and all of it. Needles are the exception: their length falls by half with every second bisection, and
-/// their number would grow without bound where one reaches far away.
+/// that length and all of it.
 const MOST_OF_EDGE: f64 = 4.0;
+/// The number of vertices that a first mesh may have in any case, since it takes a second at most. Needles take more
+/// than [`MOST_OF_EDGE`]: both halves of a needle are needles of half the length, so that one that reaches far away would
+/// take elements without bound.
+const ANYWAY_VERTICES: usize = 1 << 16;
 
 /// The first mesh of a scene.
 fn first_mesh(scene: &Scene, request: &PilotRequest) -> FirstMesh {
@@ -223,7 +226,7 @@ fn first_mesh(scene: &Scene, request: &PilotRequest) -> FirstMesh {
         edge_m
     };
     let most = subdivision.vertex_count() + (MOST_OF_EDGE * (first + more)) as usize;
-    let most = request.max_vertices.min(most);
+    let most = request.max_vertices.min(most.max(ANYWAY_VERTICES));
     subdivision.bisect_to(start_m, most);
     if request.is_fitted && !without("room-scale") {
         bisect_to_scale(scene, &mut subdivision, request.max_vertices);
