@@ -14,6 +14,9 @@ use isolux::map::{
 };
 use serde::Serialize;
 
+/// An audit that would not have found an error as large as all the light tells nothing.
+const BLIND: f64 = 1.0;
+
 /// Runs the subcommand.
 pub(crate) fn run(flags: &AuditFlags, json: bool) -> Result<Outcome, Failure> {
     let (scene, map) = map_file::read(&flags.map)?;
@@ -91,6 +94,10 @@ pub(crate) fn line(audit: &Audit) -> String {
     let found = interval(&audit.error);
     let places = audit.places;
     match audit.contradicts {
+        false if audit.would_find > BLIND => format!(
+            "could not be judged: paths to {places} places are too noisy to find an error below {}",
+            show_share(audit.would_find)
+        ),
         false => format!(
             "{found}, by {places} places; {} would have been found",
             show_share(audit.would_find)
@@ -121,9 +128,10 @@ fn places(audit: &Audit) -> String {
     format!("{} by area, {hard} where trouble is likely{unknown}", audit.places)
 }
 
-const fn verdict(audit: &Audit) -> &'static str {
+fn verdict(audit: &Audit) -> &'static str {
     match audit.contradicts {
         true => "contradicted: the error is larger than reported",
+        false if audit.would_find > BLIND => "could not be judged: its paths are too noisy",
         false => "not contradicted",
     }
 }

@@ -99,7 +99,7 @@ pub(crate) struct NewFlags {
     #[arg(value_enum)]
     pub kind: RoomKind,
     /// Width, depth and height in metres
-    #[arg(long, value_name = "WxDxH", value_parser = quantity::room_m, default_value = "6x5x2.8")]
+    #[arg(long, value_name = "WxDxH", value_parser = quantity::room_m, allow_hyphen_values = true, default_value = "6x5x2.8")]
     pub size: [f64; 3],
     /// Where to write the scene
     #[arg(short, long, value_name = "ROOM.toml")]

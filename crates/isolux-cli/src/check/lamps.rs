@@ -86,6 +86,14 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
     let all_cd: f64 = looks.iter().map(|(light_cd, _)| light_cd).sum();
     let far = looks.iter().filter(|(_, seen)| !seen.as_ref().is_some_and(is_close));
     let far_cd: f64 = far.map(|(light_cd, _)| light_cd).sum();
+    // What shines down on a desk just below is open above.
+    let is_shut_in = || {
+        all_around().into_iter().all(|local| {
+            let direction = world_from_luminaire.vector(local.to_vector()).direction();
+            let seen = direction.and_then(|direction| look(scene, *position, direction));
+            seen.as_ref().is_some_and(is_close)
+        })
+    };
     // A beam narrower than the directions tried is left alone.
     if looks.is_empty() {
         None
@@ -95,7 +103,7 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
         Some(Trouble::LightsBlackBacks)
     } else if looks.iter().all(|(_, l)| l.as_ref().is_some_and(|s| s.mirrors_alone)) {
         Some(Trouble::LightsMirrorsAlone)
-    } else if far_cd <= LEAKS * all_cd {
+    } else if far_cd <= LEAKS * all_cd && is_shut_in() {
         Some(Trouble::ShutIn)
     } else {
         None
@@ -264,6 +272,14 @@ mod tests {
     }
 
     fn trouble_among(shapes: Vec<Shape>, material: Material, intensity_cd: f64) -> Option<Trouble> {
+        trouble_with(shapes, material, IntensityDistribution::Isotropic { intensity_cd })
+    }
+
+    fn trouble_with(
+        shapes: Vec<Shape>,
+        material: Material,
+        intensity: IntensityDistribution,
+    ) -> Option<Trouble> {
         let luminaire = Luminaire {
             name: "lamp".into(),
             group: 0,
@@ -271,7 +287,7 @@ mod tests {
             kind: LuminaireKind::Point {
                 position: Point::ORIGIN,
                 world_from_luminaire: Transform::IDENTITY,
-                intensity: IntensityDistribution::Isotropic { intensity_cd },
+                intensity,
                 area: None,
             },
         };
@@ -291,6 +307,20 @@ mod tests {
         let mut open = cube(5.0, true);
         open.triangles.truncate(10);
         assert_eq!(trouble_among(vec![open], mirror(), 1.0), None);
+    }
+
+    #[test]
+    fn what_shines_on_a_desk_just_below_is_not_shut_in() {
+        let desk = Shape {
+            positions: [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+                .map(|[x, y]| [x, y, -0.1])
+                .into(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..Shape::default()
+        };
+        let material = Material::two_sided("wood", Finish::diffuse(Rgb::grey(0.5)));
+        let down = IntensityDistribution::CosinePower { peak_cd: 1.0, exponent: 1.0 };
+        assert_eq!(trouble_with(vec![cube(5.0, true), desk], material, down), None);
     }
 
     #[test]

@@ -70,7 +70,7 @@ impl LuminousOpening {
             Some(OpeningShape::Point | OpeningShape::Rectangle) | None => AreaShape::Box,
         };
         let sizes_m = [self.length_m, self.width_m, self.height_m];
-        Some(LuminousArea { shape, half_m: sizes_m.map(|size| 0.5 * size) })
+        Some(LuminousArea { shape, half_m: sizes_m.map(|size| 0.5 * size), middle_m: [0.0; 3] })
     }
 
     /// From the numbers as written, in metres, with their signs.
@@ -171,7 +171,14 @@ mod tests {
             (CylinderAlongWidth, AreaShape::CylinderY),
         ] {
             let found = area(Some(shape), [0.6, 0.2, 0.1]);
-            assert_eq!(found, Some(LuminousArea { shape: expected, half_m: [0.3, 0.1, 0.05] }));
+            assert_eq!(
+                found,
+                Some(LuminousArea {
+                    shape: expected,
+                    half_m: [0.3, 0.1, 0.05],
+                    middle_m: [0.0; 3]
+                })
+            );
         }
         for (shape, sizes) in [(Some(Point), [0.1; 3]), (None, [0.1; 3]), (Some(Disc), [0.0; 3])] {
             assert_eq!(area(shape, sizes), None);

@@ -13,7 +13,8 @@ use std::f64::consts::PI;
 const MIDDLE_GREY: f64 = 0.18;
 /// Share of the area that may be displayed as white.
 const WHITE_SHARE: f64 = 0.01;
-/// Darker places than this share of the mean do not darken the average further.
+/// Places darker than this share of the mean are in the dark: the outsides of walls, the insides of cupboards. Nobody's
+/// eyes adapt to them.
 const DARKEST_SHARE: f64 = 1e-3;
 
 /// How luminances become colours between 0 and 1: the global operator of Reinhard et al. 2002,
@@ -30,7 +31,7 @@ impl Preview {
     /// Exposure by the area-weighted geometric mean of the luminances, white where only a
     /// hundredth of the area is brighter. Where luminances are much alike, white alone decides.
     pub fn automatic(scene: &Scene, map: &IlluminationMap) -> Self {
-        let mut patches = patches(scene, map);
+        let mut patches = lit(patches(scene, map));
         patches.sort_by(|a, b| a.luminance_cd_m2.total_cmp(&b.luminance_cd_m2));
         let Some(Means { area_m2, arithmetic, geometric }) = means(&patches) else {
             return Self { exposure_m2_cd: 1.0, white_cd_m2: 1.0 };
@@ -50,7 +51,7 @@ impl Preview {
     /// The area-weighted geometric mean of the luminances, cd/m2: what eyes are adapted to, wherever they look. `None` for a map
     /// without light.
     pub fn adaptation_cd_m2(scene: &Scene, map: &IlluminationMap) -> Option<f64> {
-        means(&patches(scene, map)).map(|means| means.geometric)
+        means(&lit(patches(scene, map))).map(|means| means.geometric)
     }
 
     /// Linear Rec. 709 between 0 and 1, for a luminance in three channels, cd/m2.
@@ -79,6 +80,15 @@ struct Means {
     geometric: f64,
 }
 
+/// The patches that are not in the dark.
+fn lit(mut patches: Vec<Patch>) -> Vec<Patch> {
+    let area_m2: f64 = patches.iter().map(|p| p.area_m2).sum();
+    let sum: f64 = patches.iter().map(|p| p.area_m2 * p.luminance_cd_m2).sum();
+    let darkest = DARKEST_SHARE * sum / area_m2;
+    patches.retain(|p| p.luminance_cd_m2 > darkest);
+    patches
+}
+
 /// The means; `None` without light.
 fn means(patches: &[Patch]) -> Option<Means> {
     let area_m2: f64 = patches.iter().map(|p| p.area_m2).sum();
@@ -87,8 +97,7 @@ fn means(patches: &[Patch]) -> Option<Means> {
     if !(arithmetic > 0.0 && arithmetic.is_finite()) {
         return None;
     }
-    let floor = arithmetic * DARKEST_SHARE;
-    let logarithm = |p: &Patch| p.area_m2 * libm::log(p.luminance_cd_m2.max(floor));
+    let logarithm = |p: &Patch| p.area_m2 * libm::log(p.luminance_cd_m2);
     let geometric = libm::exp(patches.iter().map(logarithm).sum::<f64>() / area_m2);
     Some(Means { area_m2, arithmetic, geometric })
 }
@@ -139,6 +148,19 @@ mod tests {
                 assert!((0.0..=1.0).contains(&c), "{luminance}: {c}");
             }
         }
+    }
+
+    #[test]
+    fn what_is_in_the_dark_does_not_count() {
+        let patch = |area_m2, luminance_cd_m2| Patch { area_m2, luminance_cd_m2 };
+        let inside = || vec![patch(1.0, 50.0), patch(1.0, 200.0)];
+        let alone = means(&lit(inside())).unwrap();
+        let mut with_outside = inside();
+        with_outside.extend([patch(3.0, 0.0), patch(3.0, 1e-3)]);
+        let both = means(&lit(with_outside)).unwrap();
+        assert!((alone.geometric - 100.0).abs() < 1e-9);
+        assert_eq!((both.geometric, both.area_m2), (alone.geometric, alone.area_m2));
+        assert!(means(&lit(vec![patch(1.0, 0.0)])).is_none());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! How much light a luminaire gives, and where to.
 
 use super::context::Context;
-use super::quantity::NonNegative;
+use super::quantity::{NonNegative, plain};
 use super::record::{
     CosineRecord, IsotropicRecord, LightRecord, LuminousAreaRecord, LuminousSizes, SpotRecord,
 };
@@ -86,9 +86,10 @@ impl Emission {
     pub(super) fn with_area(self, area: Option<&At<LuminousAreaRecord>>) -> Self {
         let area = area.map_or(self.area, |area| match *area.get_ref() {
             LuminousAreaRecord::Point(_) => None,
-            LuminousAreaRecord::Sizes(LuminousSizes { shape, size_m }) => {
+            LuminousAreaRecord::Sizes(LuminousSizes { shape, size_m, middle_m }) => {
                 let half_m = size_m.map(|size| 0.5 * size.0);
-                (half_m != [0.0; 3]).then_some(LuminousArea { shape, half_m })
+                let middle_m = middle_m.map_or([0.0; 3], plain);
+                (half_m != [0.0; 3]).then_some(LuminousArea { shape, half_m, middle_m })
             }
         });
         Self { area, ..self }

@@ -213,6 +213,8 @@ pub(super) struct LuminousSizes {
     pub(super) shape: AreaShape,
     /// Along C0-C180, along C90-C270, and vertically.
     pub(super) size_m: [NonNegative; 3],
+    /// From the position, in the frame of the luminaire.
+    pub(super) middle_m: Option<Triple>,
 }
 
 /// A luminaire of a library: all but where it hangs.

@@ -1,8 +1,8 @@
 //! All problems of a scene at once.
 
 use super::{
-    Body, Camera, Coat, Dielectric, Finish, Luminaire, LuminaireKind, Material, Place, SceneParts,
-    SceneProblem, Shape, Texture,
+    Body, Camera, Coat, Dielectric, Finish, Luminaire, LuminaireKind, LuminousArea, Material,
+    Place, SceneParts, SceneProblem, Shape, Texture,
 };
 use crate::photometry::IntensityDistribution;
 use crate::units::Rgb;
@@ -203,7 +203,11 @@ fn check_luminaire(luminaire: &Luminaire, groups: usize, report: Report) {
     match &luminaire.kind {
         LuminaireKind::Point { position, intensity, area, .. } => {
             let is_size = |half: f64| half.is_finite() && half >= 0.0;
-            if area.is_some_and(|area| !area.half_m.into_iter().all(is_size)) {
+            let is_bad = |area: LuminousArea| {
+                !area.half_m.into_iter().all(is_size)
+                    || !area.middle_m.into_iter().all(f64::is_finite)
+            };
+            if area.is_some_and(is_bad) {
                 say("its luminous area has no size".into(), "give finite sizes of zero or more");
             }
             if !position.is_finite() {

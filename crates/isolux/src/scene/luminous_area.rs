@@ -4,7 +4,7 @@ use isolux_geometry::{Direction, Vector};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// The places that the light of a luminaire leaves from, in the frame of the luminaire, about its position. From each
+/// The places that the light of a luminaire leaves from, in the frame of the luminaire. From each
 /// place leaves the same share of the light, with the whole intensity distribution: that is what a photometric file
 /// says. Far away it is a point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,6 +13,13 @@ pub struct LuminousArea {
     pub shape: AreaShape,
     /// Half of the extent along x, y and z, m. Zero where it is flat.
     pub half_m: [f64; 3],
+    /// Its middle from the position of the luminaire, m: other than zero where a surface cuts off one side.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub middle_m: [f64; 3],
+}
+
+fn is_zero(middle_m: &[f64; 3]) -> bool {
+    *middle_m == [0.0; 3]
 }
 
 /// Points around a border.
@@ -47,7 +54,7 @@ impl AreaShape {
 }
 
 impl LuminousArea {
-    /// The place, from the middle, for three numbers from 0 to 1. Even numbers give even places.
+    /// The place, from the position of the luminaire, for three numbers from 0 to 1. Even numbers give even places.
     pub fn place(&self, [a, b, c]: [f64; 3]) -> Vector {
         let share = if let Some([along, u, v]) = self.shape.axes() {
             let (s, t) = libm::sincos(TAU * b);
@@ -62,7 +69,7 @@ impl LuminousArea {
             let beside = (1.0 - height * height).max(0.0).sqrt();
             [beside * t, beside * s, height].map(|x| x * libm::cbrt(c))
         };
-        let [x, y, z] = [0, 1, 2].map(|k| share[k] * self.half_m[k]);
+        let [x, y, z] = [0, 1, 2].map(|k| self.middle_m[k] + share[k] * self.half_m[k]);
         Vector::new(x, y, z)
     }
 
@@ -71,7 +78,7 @@ impl LuminousArea {
         matches!(self.shape, AreaShape::Box | AreaShape::CylinderZ) && self.half_m[2] == 0.0
     }
 
-    /// The radius of a sphere about the middle that contains all places, m.
+    /// The radius of a sphere about the position that contains all places, m.
     pub fn radius_m(&self) -> f64 {
         let [x, y, z] = self.half_m;
         // Allowance for the rounding of a length and of the steps after it.
@@ -82,10 +89,10 @@ impl LuminousArea {
             None if self.shape == AreaShape::Box => Vector::new(x, y, z).length(),
             None => x.max(y).max(z),
         };
-        reach_m * (1.0 + 1e-12)
+        (reach_m + Vector::from(self.middle_m).length()) * (1.0 + 1e-12)
     }
 
-    /// Places of its border, from the middle: the corners of a box, points around ends, or over an ellipsoid. No other
+    /// Places of its border, from the position: the corners of a box, points around ends, or over an ellipsoid. No other
     /// place lies far beyond their hull.
     pub fn border(&self) -> Vec<Vector> {
         let steps = |k: u32, of: u32| f64::from(k) / f64::from(of);
@@ -123,7 +130,8 @@ impl LuminousArea {
     /// The range of distances at which a ray is inside, in lengths of `direction`; `None` where it misses. Both are
     /// in the frame of the luminaire.
     pub fn crossed(&self, origin: Vector, direction: Vector) -> Option<[f64; 2]> {
-        let (o, d) = ([origin.x, origin.y, origin.z], [direction.x, direction.y, direction.z]);
+        let (origin, d) = (origin - Vector::from(self.middle_m), direction);
+        let (o, d) = ([origin.x, origin.y, origin.z], [d.x, d.y, d.z]);
         let slab = |k: usize| between(o[k], d[k], self.half_m[k]);
         let both = |a: [f64; 2], b: [f64; 2]| {
             let range = [a[0].max(b[0]), a[1].min(b[1])];
@@ -186,7 +194,7 @@ mod tests {
     #[test]
     fn places_lie_inside_and_fill_it_evenly() {
         for shape in SHAPES {
-            let area = LuminousArea { shape, half_m: [0.6, 0.2, 0.1] };
+            let area = LuminousArea { shape, half_m: [0.6, 0.2, 0.1], middle_m: [0.0; 3] };
             let (mut mean, mut square) = (Vector::ZERO, [0.0; 3]);
             const PLACES: u64 = 20_000;
             for k in 0..PLACES {
@@ -220,7 +228,7 @@ mod tests {
     #[test]
     fn the_outline_is_what_rays_meet() {
         for shape in SHAPES {
-            let area = LuminousArea { shape, half_m: [0.6, 0.2, 0.1] };
+            let area = LuminousArea { shape, half_m: [0.6, 0.2, 0.1], middle_m: [0.0; 3] };
             for [x, y, z] in [[0.0, 0.0, -1.0], [0.5, 0.4, -0.7], [1.0, 0.2, 0.1]] {
                 let along = Vector::new(x, y, z).direction().unwrap();
                 let (u, v) = along.frame();
@@ -242,7 +250,7 @@ mod tests {
     #[test]
     fn borders_reach_the_whole_extent() {
         for shape in SHAPES {
-            let area = LuminousArea { shape, half_m: [0.6, 0.2, 0.1] };
+            let area = LuminousArea { shape, half_m: [0.6, 0.2, 0.1], middle_m: [0.0; 3] };
             let border = area.border();
             for (axis, half) in area.half_m.into_iter().enumerate() {
                 let reach =
@@ -256,7 +264,11 @@ mod tests {
 
     #[test]
     fn flat_areas_are_met_from_below_and_missed_from_the_side() {
-        let disc = LuminousArea { shape: AreaShape::CylinderZ, half_m: [0.2, 0.2, 0.0] };
+        let disc = LuminousArea {
+            shape: AreaShape::CylinderZ,
+            half_m: [0.2, 0.2, 0.0],
+            middle_m: [0.0; 3],
+        };
         let down = Vector::new(0.0, 0.0, -1.0);
         assert_eq!(disc.crossed(Vector::new(0.1, 0.0, 2.0), down), Some([2.0, 2.0]));
         assert_eq!(disc.crossed(Vector::new(0.3, 0.0, 2.0), down), None);

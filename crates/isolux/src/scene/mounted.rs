@@ -72,36 +72,48 @@ fn before_what_it_lies_on(
     position
 }
 
-/// A luminous area as far as no surface cuts it, smaller along an axis or as a whole: what is written to reach into a
-/// ceiling or a wall ends there, and none of its light is lost.
+/// A luminous area as far as no surface cuts it: what is written to reach into a ceiling or a wall ends there, and none
+/// of its light is lost. Each of its six sides ends where the way from the position is no longer free; where corners are
+/// hidden all the same, it becomes smaller as a whole.
 fn up_to_surfaces(
     bvh: &Bvh,
     position: Point,
     world_from_luminaire: &Transform,
     mut area: LuminousArea,
 ) -> LuminousArea {
-    // The share of a way from the position that is free, both ways.
-    let free = |half_m: [f64; 3]| {
-        let [x, y, z] = half_m;
-        let way = world_from_luminaire.vector(Vector::new(x, y, z));
+    let margin_m = BEFORE_IT * bvh.offset_m(position);
+    // The share of a way from the position that is free. What ends a margin away from a surface stays as it is.
+    let free = |way: [f64; 3]| {
+        let way = world_from_luminaire.vector(Vector::from(way));
         let Some(direction) = way.direction() else { return 1.0 };
-        let (length_m, margin_m) = (way.length(), BEFORE_IT * bvh.offset_m(position));
-        // What ends a margin away from a surface stays as it is.
-        let one = |direction: Direction| {
-            let reach_m = length_m + 0.5 * margin_m;
-            let segment = Ray::new(position, direction).up_to(reach_m as f32);
-            let hit_m = bvh.closest_hit(&segment).map(|hit| f64::from(hit.t) - margin_m);
-            hit_m.map_or(1.0, |free_m| (free_m / length_m).clamp(0.0, 1.0))
-        };
-        one(direction).min(one(-direction))
+        let length_m = way.length();
+        let segment = Ray::new(position, direction).up_to((length_m + 0.5 * margin_m) as f32);
+        let free_m = bvh.closest_hit(&segment).map(|hit| f64::from(hit.t) - margin_m);
+        free_m.map_or(1.0, |free_m| (free_m / length_m).clamp(0.0, 1.0))
     };
-    let along = |k: usize| std::array::from_fn(|axis| if axis == k { area.half_m[k] } else { 0.0 });
-    let shares: [f64; 3] = std::array::from_fn(|k| free(along(k)));
-    (0..3).for_each(|k| area.half_m[k] *= shares[k]);
-    let [x, y, z] = area.half_m;
-    let corners = [[x, y, z], [x, y, -z], [x, -y, z], [x, -y, -z]];
-    let share = corners.into_iter().map(free).fold(1.0, f64::min);
-    area.half_m = area.half_m.map(|half| half * share);
+    for axis in 0..3 {
+        let ends = [-1.0, 1.0].map(|sign| area.middle_m[axis] + sign * area.half_m[axis]);
+        let shares = ends.map(|end| {
+            let mut way = [0.0; 3];
+            way[axis] = end;
+            free(way)
+        });
+        // Without rounding where nothing is cut: a scene that is read again is the same.
+        if shares != [1.0; 2] {
+            let [low, high] = [ends[0] * shares[0], ends[1] * shares[1]];
+            area.half_m[axis] = 0.5 * (high - low);
+            area.middle_m[axis] = 0.5 * (high + low);
+        }
+    }
+    let corner = |k: usize| {
+        let sign = |axis: usize| if k >> axis & 1 == 0 { -1.0 } else { 1.0 };
+        std::array::from_fn(|axis| area.middle_m[axis] + sign(axis) * area.half_m[axis])
+    };
+    let share = (0..8).map(|k| free(corner(k))).fold(1.0, f64::min);
+    if share < 1.0 {
+        area.half_m = area.half_m.map(|half| half * share);
+        area.middle_m = area.middle_m.map(|middle| middle * share);
+    }
     area
 }
 

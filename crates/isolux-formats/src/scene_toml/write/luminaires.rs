@@ -91,7 +91,7 @@ fn light(intensity: &IntensityDistribution, catalogue: &Catalogue) -> (&'static 
 
 /// The luminous area as a value; `None` where it follows from the distribution.
 fn luminous_area(area: Option<LuminousArea>, intensity: &IntensityDistribution) -> Option<String> {
-    let Some(LuminousArea { shape, half_m }) = area else {
+    let Some(LuminousArea { shape, half_m, middle_m }) = area else {
         return matches!(intensity, IntensityDistribution::Web(_)).then(|| "\"point\"".to_owned());
     };
     let shape = match shape {
@@ -102,7 +102,11 @@ fn luminous_area(area: Option<LuminousArea>, intensity: &IntensityDistribution) 
         AreaShape::Ellipsoid => "ellipsoid",
     };
     let size_m = triple(half_m.map(|half| 2.0 * half));
-    Some(format!("{{ shape = {}, size_m = {size_m} }}", quoted(shape)))
+    let middle = match middle_m == [0.0; 3] {
+        true => String::new(),
+        false => format!(", middle_m = {}", triple(middle_m)),
+    };
+    Some(format!("{{ shape = {}, size_m = {size_m}{middle} }}", quoted(shape)))
 }
 
 /// Aim and turn (degrees) of which [`world_from_luminaire`] makes a rotation.

@@ -45,7 +45,8 @@ fn of_luminaire() -> Scene {
         point([0.0, 0.0, 2.5], IntensityDistribution::CosinePower { peak_cd, exponent: 1.0 });
     let h = 0.5 * SIDE_M;
     if let LuminaireKind::Point { area, .. } = &mut lamp.kind {
-        *area = Some(LuminousArea { shape: AreaShape::Box, half_m: [h, h, 0.0] });
+        *area =
+            Some(LuminousArea { shape: AreaShape::Box, half_m: [h, h, 0.0], middle_m: [0.0; 3] });
     }
     scene(stage(), materials(), vec![lamp])
 }
@@ -126,7 +127,7 @@ fn hall_of_areas(count: u64) -> Scene {
         if let LuminaireKind::Point { area, .. } = &mut luminaire.kind {
             let half_m = [0.4, 0.1, if k % 2 == 0 { 0.0 } else { 0.05 }];
             *area = (k % 6 > 0)
-                .then(|| LuminousArea { shape: shapes[k % 5], half_m })
+                .then(|| LuminousArea { shape: shapes[k % 5], half_m, middle_m: [0.0; 3] })
                 .filter(|a| a.shape != AreaShape::Ellipsoid || half_m[2] > 0.0);
         }
     }
@@ -175,16 +176,23 @@ fn areas_end_at_surfaces() {
     let lamp = |z: f64| {
         let mut lamp = isotropic([1.9, 0.0, z], 100.0);
         if let LuminaireKind::Point { area, .. } = &mut lamp.kind {
-            *area = Some(LuminousArea { shape: AreaShape::Box, half_m: [h, h, 0.1] });
+            *area = Some(LuminousArea {
+                shape: AreaShape::Box,
+                half_m: [h, h, 0.1],
+                middle_m: [0.0; 3],
+            });
         }
         lamp
     };
     let scene = scene(stage(), materials(), vec![lamp(1.0), lamp(0.0)]);
-    let half = |k: usize| scene.luminaires()[k].kind.area().unwrap().half_m;
-    // The mirror at 2 m is 0.1 m away, the floor far from the first and touched by the second.
-    let first = half(0);
-    assert!((first[0] - 0.1).abs() < 1e-3 && first[1] == h && first[2] == 0.1, "{first:?}");
-    assert!(half(1)[2] < 1e-3, "{:?}", half(1));
+    let area = |k: usize| *scene.luminaires()[k].kind.area().unwrap();
+    // The mirror at 2 m is 0.1 m away and cuts off one side; the floor is far from the first and touched by the second.
+    let LuminousArea { half_m, middle_m, .. } = area(0);
+    let ends = [middle_m[0] - half_m[0], middle_m[0] + half_m[0]];
+    assert!(ends[0] == -h && (ends[1] - 0.1).abs() < 1e-3, "{ends:?}");
+    assert!(half_m[1..] == [h, 0.1] && middle_m[1..] == [0.0, 0.0], "{half_m:?} {middle_m:?}");
+    let LuminousArea { half_m, middle_m, .. } = area(1);
+    assert!((half_m[2] - 0.05).abs() < 1e-3 && (middle_m[2] - 0.05).abs() < 1e-3, "{half_m:?}");
     let again = Scene::assemble(scene.to_parts()).unwrap();
     assert_eq!(again.luminaires(), scene.luminaires(), "it ends where it ended");
 }

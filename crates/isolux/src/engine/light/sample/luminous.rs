@@ -62,7 +62,9 @@ impl<'a> LuminousSource<'a> {
     /// The distance of a point from the box around the area, m.
     fn nearest_m(&self, from: Point) -> f64 {
         let local = self.local_from_world.vector(from - self.position);
-        let outside = |k: usize| (local.component(k).abs() - self.area.area.half_m[k]).max(0.0);
+        let area = &self.area.area;
+        let outside =
+            |k: usize| ((local.component(k) - area.middle_m[k]).abs() - area.half_m[k]).max(0.0);
         Vector::new(outside(0), outside(1), outside(2)).length()
     }
 
