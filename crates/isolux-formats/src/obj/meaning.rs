@@ -89,17 +89,22 @@ fn mend_filters(list: &mut [MtlMaterial], findings: &mut Findings) {
     }
 }
 
-/// Nobody models a scene of nothing but glass: where `illum` alone says so of several, it says nothing.
+/// Nobody models a scene that is glass for the most part: where `illum` alone says so of most of several, without an index
+/// of refraction, or of all, it says nothing.
 fn mend_all_transparent(list: &mut [MtlMaterial], findings: &mut Findings) {
     let by_model_alone = |m: &MtlMaterial| {
         let passes_all = m.tf.is_none_or(|tf| tf == Rgb::WHITE);
         m.is_transmitting() && m.dissolve() == 1.0 && passes_all && is_coloured(m)
     };
-    if list.len() < 3 || !list.iter().all(by_model_alone) {
+    let without_index = |m: &MtlMaterial| by_model_alone(m) && m.ni.is_none_or(|ni| ni <= 1.0);
+    let are_most = 2 * list.iter().filter(|m| without_index(m)).count() > list.len();
+    if list.len() < 3 || !(are_most || list.iter().all(by_model_alone)) {
         return;
     }
-    tell(list, by_model_alone, "all materials would be glass: they are read as opaque", findings);
-    list.iter_mut().for_each(|m| m.illum = None);
+    let is_meant = |m: &MtlMaterial| if are_most { without_index(m) } else { by_model_alone(m) };
+    let what = "most materials would be glass by `illum` alone: they are read as opaque";
+    tell(list, is_meant, what, findings);
+    list.iter_mut().filter(|m| is_meant(m)).for_each(|m| m.illum = None);
 }
 
 /// One warning of all materials of a kind, at the first.
