@@ -69,7 +69,8 @@ impl Shown for Nothing {
 /// Sends bytes to the server and reads the beginning of what comes back; afterwards the server must still answer.
 pub fn ask(bytes: &[u8]) {
     exchange(bytes);
-    let hello = format!("GET /api/hello HTTP/1.1\r\nHost: 127.0.0.1:{PORT}\r\nConnection: close\r\n\r\n");
+    let hello =
+        format!("GET /api/hello HTTP/1.1\r\nHost: 127.0.0.1:{PORT}\r\nConnection: close\r\n\r\n");
     assert!(exchange(hello.as_bytes()).starts_with(b"HTTP/1.1 200"), "the server is gone");
 }
 
@@ -81,7 +82,9 @@ fn exchange(bytes: &[u8]) -> Vec<u8> {
     let _ = stream.shutdown(Shutdown::Write);
     let mut answer = [0; 64];
     let length = match stream.read(&mut answer) {
-        Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => panic!("no answer: {error}"),
+        Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => {
+            panic!("no answer: {error}")
+        }
         other => other.unwrap_or(0),
     };
     answer[..length].to_vec()

@@ -110,7 +110,8 @@ mod tests {
     #[test]
     fn what_is_linked_is_listed_and_nothing_else() {
         let package = |name: &str| json!({"id": name, "name": name, "version": "1.0.0", "license": "MIT/Apache-2.0"});
-        let dependency = |name: &str, kind: Value| json!({"pkg": name, "dep_kinds": [{"kind": kind}]});
+        let dependency =
+            |name: &str, kind: Value| json!({"pkg": name, "dep_kinds": [{"kind": kind}]});
         let deps = [dependency("a", Value::Null), dependency("tested", json!("dev"))];
         let metadata = json!({
             "packages": [package(RELEASED), package("a"), package("tested")],

@@ -26,12 +26,17 @@ static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 /// The folder of the crate.
 const FORMATS: &str = env!("CARGO_MANIFEST_DIR");
 
-/// Hostile files of each entry.
-const CASES: usize = 400;
+/// Hostile files of each entry, unless `HOSTILE_CASES` says another number; `HOSTILE_SEED` makes others.
+const CASES: u64 = 1000;
 /// No file of some kilobytes takes longer, on a busy machine and with little optimization.
 const MOST_TIME: Duration = Duration::from_secs(10);
 /// Nor does it take more memory: all that is taken while it is read, given back or not.
 const MOST_BYTES: usize = 1 << 30;
+
+/// A number that the environment may choose.
+fn chosen(name: &str, otherwise: u64) -> u64 {
+    std::env::var(name).map_or(otherwise, |text| text.parse().unwrap())
+}
 
 /// What a reading did that none may do.
 fn harm(entry: &Entry, home: &Home, bytes: &[u8]) -> Option<String> {
@@ -63,8 +68,8 @@ fn hostile_files_do_no_harm() {
         let seeds = seeds::of(entry.name);
         assert!(!seeds.is_empty(), "{} has no seeds", entry.name);
         seeds.iter().for_each(|seed| check(entry, &home, seed));
-        let mut dice = Dice(1);
-        for _ in 0..CASES {
+        let mut dice = Dice(chosen("HOSTILE_SEED", 1));
+        for _ in 0..chosen("HOSTILE_CASES", CASES) {
             let mut bytes = seeds[dice.below(seeds.len())].clone();
             for _ in 0..=dice.below(4) {
                 bend(&mut bytes, &seeds[dice.below(seeds.len())], &mut dice);
