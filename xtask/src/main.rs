@@ -12,6 +12,7 @@ mod judge;
 mod lamps;
 mod page;
 mod peers;
+mod sbom;
 mod smoke;
 mod test;
 mod tidy;
@@ -33,6 +34,7 @@ cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask compared      of it, all systems by error against time, as short as it can be
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
+cargo xtask sbom          what is linked into the command, as CycloneDX
 cargo xtask consumers     light in Blender, Godot and Bevy, by hand
 cargo xtask bench setup   download Embree 4.4 into target/embree, and Radiance, Mitsuba and LuxCore into target/peers
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
@@ -60,6 +62,7 @@ fn main() -> ExitCode {
         ["golden", ref arguments @ ..] => golden::run(root, arguments),
         ["colours"] => colours::run(root),
         ["compared"] => compared::run(root),
+        ["sbom"] => sbom::run(root),
         ["consumers"] => consumers::run(root),
         ["bench", "setup"] => bench::setup(root).and_then(|embree| peers::setup(root, &embree)),
         ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),

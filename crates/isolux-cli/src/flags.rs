@@ -33,6 +33,9 @@ pub(crate) struct Flags {
     /// How materials of other formats are read where their letter would make most coloured surfaces of a file invisible
     #[arg(long, global = true, value_enum, value_name = "HOW", default_value_t = MaterialsName::AsMeant)]
     pub materials: MaterialsName,
+    /// Let scenes name files outside of their folders: textures, buffers, includes, photometry. Give it only for scenes that you trust
+    #[arg(long, global = true)]
+    pub allow_outside: bool,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,

@@ -9,7 +9,7 @@ use crate::lightmap_files::{self, Kind, Made};
 use crate::map_file;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
-use crate::source::{bad_file, show_warnings};
+use crate::source::{bad_file, reach, show_warnings};
 use isolux::lightmap::dark_sides;
 use isolux::scene::Scene;
 use isolux_formats::Loaded;
@@ -87,7 +87,7 @@ fn onto(
 ) -> Result<Option<Onto>, Failure> {
     let Some(path) = &flags.onto else { return Ok(None) };
     output.differs_from(path)?;
-    let options = Options { without_lights: flags.without_lights };
+    let options = Options { without_lights: flags.without_lights, reach: reach() };
     let Loaded { value, warnings } =
         Onto::open(path, scene, (target, options)).map_err(bad_file)?;
     show_warnings(&warnings);

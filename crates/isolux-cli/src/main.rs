@@ -97,6 +97,9 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
     if flags.materials == MaterialsName::AsWritten {
         source::read_materials_as_written();
     }
+    if flags.allow_outside {
+        source::allow_outside();
+    }
     let threads = match &flags.command {
         Command::Solve(flags) => flags.threads,
         Command::Export(flags) => flags.threads,

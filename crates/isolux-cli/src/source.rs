@@ -7,7 +7,7 @@ use crate::trouble::Trouble;
 use isolux::scene::{Scene, SceneParts, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
 use isolux_formats::obj::Materials;
-use isolux_formats::{Loaded, Problem, Problems};
+use isolux_formats::{Loaded, Problem, Problems, Reach};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -20,6 +20,22 @@ static MATERIALS_ARE_AS_WRITTEN: AtomicBool = AtomicBool::new(false);
 /// From now on materials of other formats are read by their letter.
 pub(crate) fn read_materials_as_written() {
     MATERIALS_ARE_AS_WRITTEN.store(true, Ordering::Relaxed);
+}
+
+/// Whether scenes may name files outside of their folders.
+static OUTSIDE_IS_ALLOWED: AtomicBool = AtomicBool::new(false);
+
+/// From now on scenes may name files anywhere on this machine.
+pub(crate) fn allow_outside() {
+    OUTSIDE_IS_ALLOWED.store(true, Ordering::Relaxed);
+}
+
+/// Which files a scene may name.
+pub(crate) fn reach() -> Reach {
+    match OUTSIDE_IS_ALLOWED.load(Ordering::Relaxed) {
+        true => Reach::Anywhere,
+        false => Reach::Inside,
+    }
 }
 
 /// How materials of other formats are read.
@@ -76,7 +92,7 @@ pub(crate) fn is_builtin(source: &Path) -> bool {
 pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
     match source.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {
         Some(name) => built_in(name).map(|value| Loaded { value, warnings: Vec::new() }),
-        None => isolux_formats::load_with(source, materials()).map_err(bad_file),
+        None => isolux_formats::load_with(source, materials(), reach()).map_err(bad_file),
     }
 }
 

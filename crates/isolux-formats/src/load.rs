@@ -2,20 +2,24 @@
 
 use crate::obj::Materials;
 use crate::{
-    Loaded, Problem, Problems, bounds, gltf, mitsuba, obj, ply, product_file, rad, scene_toml,
-    source, stl,
+    Loaded, Problem, Problems, Reach, bounds, gltf, mitsuba, obj, ply, product_file, rad,
+    scene_toml, source, stl,
 };
 use isolux::scene::{Lowered, MOST_REFLECTANCE, SceneParts};
 use std::path::Path;
 
 /// Reads a scene by the extension of its file. Surfaces reflect no more than some do.
 pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
-    load_with(path, Materials::AsMeant)
+    load_with(path, Materials::AsMeant, Reach::Inside)
 }
 
-/// Reads a scene whose materials are read as meant or as written.
-pub fn load_with(path: &Path, materials: Materials) -> Result<Loaded<SceneParts>, Problems> {
-    let Loaded { mut value, mut warnings } = read(path, materials)?;
+/// Reads a scene whose materials are read as meant or as written, and the files that it may name.
+pub fn load_with(
+    path: &Path,
+    materials: Materials,
+    reach: Reach,
+) -> Result<Loaded<SceneParts>, Problems> {
+    let Loaded { mut value, mut warnings } = read(path, materials, reach)?;
     bounds::check(path, &value)?;
     warnings.extend(value.hold_reflectances().iter().map(|lowered| held(path, lowered)));
     Ok(Loaded { value, warnings })
@@ -34,20 +38,20 @@ fn held(path: &Path, Lowered { material, texture, reflectance }: &Lowered) -> Pr
     Problem::new(path, place, what, "lower it: fresh white paint reflects 0.85")
 }
 
-fn read(path: &Path, materials: Materials) -> Result<Loaded<SceneParts>, Problems> {
+fn read(path: &Path, materials: Materials, reach: Reach) -> Result<Loaded<SceneParts>, Problems> {
     source::check_present(path)?;
     if std::fs::metadata(path).is_ok_and(|known| known.is_file() && known.len() == 0) {
         return Err(Problem::new(path, "", "is empty", "copy or export it again").into());
     }
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
-        Some("gltf" | "glb") => gltf::read(path),
-        Some("obj") => obj::read_with(path, materials),
+        Some("gltf" | "glb") => gltf::read_with(path, reach),
+        Some("obj") => obj::read_with(path, materials, reach),
         Some("ply") => ply::read(path),
-        Some("rad") => rad::read(path),
+        Some("rad") => rad::read_with(path, reach),
         Some("stl") => stl::read(path),
-        Some("xml") => mitsuba::read(path),
-        Some("toml") => scene_toml::read_with(path, materials),
+        Some("xml") => mitsuba::read_with(path, reach),
+        Some("toml") => scene_toml::read_with(path, materials, reach),
         other => Err(product_file::by_extension(path)
             .unwrap_or_else(|| {
                 let what = "is not a scene by its extension";

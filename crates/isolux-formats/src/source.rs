@@ -1,9 +1,9 @@
-//! Reading files that others wrote, and files that such files name.
+//! Reading files that others wrote.
 
 use crate::Problem;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 /// The bytes of a regular file of at most `limit` bytes.
 pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Problem> {
@@ -76,105 +76,9 @@ pub(crate) fn from_utf16(bytes: &[u8]) -> Option<String> {
     Some(char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect())
 }
 
-/// The directory of a file.
-pub(crate) fn directory_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    }
-}
-
-/// Why a file named in another file is not opened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Unreachable {
-    /// It would lie outside the directory tree of the file that names it.
-    Outside,
-    /// There is no such file.
-    Missing,
-    /// It is a directory.
-    Directory,
-}
-
-impl Unreachable {
-    /// What is wrong, and how to mend it.
-    pub(crate) fn explain(self, name: &str) -> (String, &'static str) {
-        match self {
-            Self::Outside => (
-                format!("file `{name}` lies outside the directory of the file that names it"),
-                "put it into that directory or below, and name it relative to it",
-            ),
-            Self::Missing => {
-                (format!("file `{name}` does not exist"), "check the name and its case")
-            }
-            Self::Directory => (format!("`{name}` is a directory"), "name a file in it"),
-        }
-    }
-}
-
-/// The path of a file named relative to `base`, which may not leave the tree below `root`, neither
-/// by `..` nor by a symbolic link. Both separators are understood.
-pub(crate) fn within(root: &Path, base: &Path, name: &str) -> Result<PathBuf, Unreachable> {
-    let name = name.replace('\\', "/");
-    let relative = Path::new(&name);
-    let has_drive = name.as_bytes().get(1) == Some(&b':');
-    let stays =
-        |c: Component| matches!(c, Component::Normal(_) | Component::CurDir | Component::ParentDir);
-    if has_drive || !relative.components().all(stays) {
-        return Err(Unreachable::Outside);
-    }
-    let path = base.join(relative);
-    let real = path.canonicalize().map_err(|_| Unreachable::Missing)?;
-    let real_root = root.canonicalize().map_err(|_| Unreachable::Missing)?;
-    if !real.starts_with(real_root) {
-        return Err(Unreachable::Outside);
-    }
-    if real.is_dir() { Err(Unreachable::Directory) } else { Ok(path) }
-}
-
-/// A file whose name differs from a missing one in the case of its letters, as it may on a disk of Windows.
-pub(crate) fn in_other_case(root: &Path, base: &Path, name: &str) -> Option<PathBuf> {
-    let name = name.replace('\\', "/");
-    let relative = Path::new(&name);
-    let wanted = relative.file_name()?.to_str()?;
-    let folder = relative.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let beside = std::fs::read_dir(base.join(folder.unwrap_or(Path::new(".")))).ok()?;
-    let names = beside.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let mut alike: Vec<String> = names.filter(|own| own.eq_ignore_ascii_case(wanted)).collect();
-    alike.sort_unstable();
-    let found = relative.with_file_name(alike.first()?);
-    within(root, base, found.to_str()?).ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn named_files_stay_in_the_tree() {
-        let outer = tempfile::tempdir().unwrap();
-        let root = outer.path().join("scene");
-        std::fs::create_dir_all(root.join("sub")).unwrap();
-        std::fs::write(root.join("sub/a.txt"), "a").unwrap();
-        std::fs::write(outer.path().join("secret.txt"), "s").unwrap();
-        let reach = |name: &str| within(&root, &root, name);
-        assert!(reach("sub/a.txt").is_ok());
-        assert!(reach("sub\\a.txt").is_ok());
-        assert!(reach("sub/../sub/a.txt").is_ok());
-        assert_eq!(reach("../secret.txt"), Err(Unreachable::Outside));
-        assert_eq!(reach("/etc/hostname"), Err(Unreachable::Outside));
-        assert_eq!(reach("C:\\a.txt"), Err(Unreachable::Outside));
-        assert_eq!(reach("sub/b.txt"), Err(Unreachable::Missing));
-        assert_eq!(reach("sub"), Err(Unreachable::Directory));
-        let other = |name: &str| in_other_case(&root, &root, name);
-        assert_eq!(other("sub\\A.TXT"), Some(root.join("sub/a.txt")));
-        assert_eq!(other("../SECRET.txt"), None);
-        assert_eq!(within(&root, &root.join("sub"), "../../secret.txt"), Err(Unreachable::Outside));
-        #[cfg(unix)]
-        {
-            std::os::unix::fs::symlink(outer.path().join("secret.txt"), root.join("l")).unwrap();
-            assert_eq!(reach("l"), Err(Unreachable::Outside));
-        }
-    }
 
     #[test]
     fn text_of_every_encoding() {

@@ -44,7 +44,7 @@ mod uri;
 
 use crate::extent::{IMPLAUSIBLE_EXTENT_M, largest_side_m};
 use crate::source::read_bytes;
-use crate::{Loaded, Problems};
+use crate::{Loaded, Problems, Reach};
 use buffers::Document;
 use container::Container;
 pub(crate) use draco::NAME as DRACO;
@@ -67,6 +67,8 @@ pub(crate) struct Reading {
     pub(crate) unit_is_known: bool,
     /// Luminance of white in unlit materials, cd/m2; without it they are taken as diffuse.
     pub(crate) unlit_luminance_cd_m2: Option<f64>,
+    /// Which files it may name.
+    pub(crate) reach: Reach,
 }
 
 /// Reads the default scene of a file; on failure, all problems that could be found.
@@ -74,12 +76,17 @@ pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     read_as(path, Reading::default())
 }
 
+/// Reads the default scene of a file and the files that it may name.
+pub fn read_with(path: &Path, reach: Reach) -> Result<Loaded<SceneParts>, Problems> {
+    read_as(path, Reading { reach, ..Reading::default() })
+}
+
 /// Reads a file of which something is asked.
 pub(crate) fn read_as(path: &Path, reading: Reading) -> Result<Loaded<SceneParts>, Problems> {
     let mut notes = Notes::new(path);
     let bytes = read_bytes(path, limits::BUFFER_BYTES)?;
     let container = or_fail(container::open(&bytes), &mut notes)?;
-    let (document, placed) = open(path, &container, &mut notes)?;
+    let (document, placed) = open((path, reading.reach), &container, &mut notes)?;
     let (value, _) = resolve(&document, &placed, (path, reading), &mut notes);
     notes.check()?;
     Ok(Loaded { value, warnings: notes.into_warnings() })
@@ -87,14 +94,14 @@ pub(crate) fn read_as(path: &Path, reading: Reading) -> Result<Loaded<SceneParts
 
 /// The file as written, with its data unpacked, and the nodes of its scene.
 fn open<'a>(
-    path: &Path,
+    (path, reach): (&Path, Reach),
     container: &Container<'a>,
     notes: &mut Notes,
 ) -> Result<(Document<'a>, Vec<Placed>), Problems> {
     let root = or_fail(record::parse(container.json), notes)?;
     extensions::check(&root, notes);
     let placed = nodes::place(&root, notes);
-    let mut document = Document::load(root, Folder::of(path), container.binary, notes);
+    let mut document = Document::load(root, Folder::of(path, reach), container.binary, notes);
     notes.check()?;
     compression::unpack(&mut document, notes);
     notes.check()?;

@@ -7,7 +7,7 @@ use super::notes::{Flaw, Notes};
 use super::primitive::Source;
 use super::{Reading, container, instances, limits, open, or_fail, resolve};
 use crate::source::read_bytes;
-use crate::{Problem, Problems};
+use crate::{Problem, Problems, Reach};
 use gltf_json::accessor::ComponentType;
 use isolux::geometry::Transform;
 use isolux::scene::Shape;
@@ -32,11 +32,11 @@ pub(crate) struct Elements {
 
 impl Opened {
     /// Opens a file and reads its scene. What is left out of that was said when it was solved.
-    pub(crate) fn open(path: &Path) -> Result<Self, Problems> {
+    pub(crate) fn open(path: &Path, reach: Reach) -> Result<Self, Problems> {
         let mut notes = Notes::new(path);
         let bytes = read_bytes(path, limits::BUFFER_BYTES)?;
         let container = or_fail(container::open(&bytes), &mut notes)?;
-        let (document, placed) = open(path, &container, &mut notes)?;
+        let (document, placed) = open((path, reach), &container, &mut notes)?;
         let (parts, origins) = resolve(&document, &placed, (path, Reading::default()), &mut notes);
         notes.check()?;
         let json = serde_json::from_slice(container.json)

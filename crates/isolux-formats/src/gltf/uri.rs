@@ -2,19 +2,17 @@
 
 use super::notes::Flaw;
 use crate::Problem;
+use crate::reach::{ALLOW, Reach, Root};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
-/// The directory of the file being read; nothing outside of it is opened.
-pub(super) struct Folder {
-    directory: PathBuf,
-}
+/// The directory of the file being read; nothing outside of it is opened unless that is allowed.
+pub(super) struct Folder(Root);
 
 impl Folder {
-    pub(super) fn of(file: &Path) -> Self {
-        let parent = file.parent().filter(|p| !p.as_os_str().is_empty());
-        Self { directory: parent.unwrap_or(Path::new(".")).to_owned() }
+    pub(super) fn of(file: &Path, reach: Reach) -> Self {
+        Self(Root::of(file, reach))
     }
 
     /// The bytes a URI stands for, at most `limit` of them.
@@ -25,14 +23,11 @@ impl Folder {
         read_file(&self.confine(uri)?, limit)
     }
 
-    /// The path of a file that a URI names, inside the directory even after links are followed.
+    /// The path of a file that a URI names, inside the directory even after links are followed, unless more is allowed.
     pub(super) fn confine(&self, uri: &str) -> Result<PathBuf, Flaw> {
-        let path = self.directory.join(relative_path(uri)?);
+        let path = self.0.folder().join(named_path(uri, self.0.reach())?);
         let real = path.canonicalize().map_err(|error| unreadable(&path, &error))?;
-        let home = self.directory.canonicalize().map_err(|e| unreadable(&self.directory, &e))?;
-        if !real.starts_with(&home) {
-            return Err(outside(uri));
-        }
+        self.0.check(&real).map_err(|_| outside(uri))?;
         Ok(path)
     }
 }
@@ -61,7 +56,10 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Flaw {
 
 fn outside(uri: &str) -> Flaw {
     let what = format!("the URI `{}` leaves the directory of the file", shown(uri));
-    Flaw::new(what, "put the data beside the scene and name it by a relative path")
+    Flaw::new(
+        what,
+        format!("put the data beside the scene and name it by a relative path; or {ALLOW}"),
+    )
 }
 
 /// The scheme of an absolute URI (RFC 3986, section 3.1).
@@ -72,7 +70,8 @@ fn scheme(uri: &str) -> Option<&str> {
         .then_some(scheme)
 }
 
-fn relative_path(uri: &str) -> Result<PathBuf, Flaw> {
+/// The path that a URI names, relative to the file; any path of this machine where that is allowed.
+fn named_path(uri: &str, reach: Reach) -> Result<PathBuf, Flaw> {
     if let Some(scheme) = scheme(uri) {
         let what = format!("the URI `{}` is of the kind `{scheme}:`", shown(uri));
         return Err(Flaw::new(what, "only data: URIs and files beside the scene are read"));
@@ -84,7 +83,9 @@ fn relative_path(uri: &str) -> Result<PathBuf, Flaw> {
     // A backslash and a drive letter are paths of their own on some systems.
     let path = Path::new(&text);
     let plain = |c: Component| matches!(c, Component::Normal(_) | Component::CurDir);
-    if text.is_empty() || text.contains(['\\', '\0', ':']) || !path.components().all(plain) {
+    let stays = reach == Reach::Anywhere || path.components().all(plain);
+    // Two slashes begin the name of another machine.
+    if text.is_empty() || text.contains(['\\', '\0', ':']) || text.starts_with("//") || !stays {
         return Err(outside(uri));
     }
     Ok(path.to_owned())
@@ -198,7 +199,7 @@ mod tests {
     #[test]
     fn paths_stay_below() {
         for good in ["a.bin", "sub/a.bin", "./a.bin", "a%20b.bin", "%C3%A9.bin", "100%25.bin"] {
-            assert!(relative_path(good).is_ok(), "{good}");
+            assert!(named_path(good, Reach::Inside).is_ok(), "{good}");
         }
         for bad in [
             "",
@@ -219,7 +220,15 @@ mod tests {
             "%4",
             "%zz",
         ] {
-            assert!(relative_path(bad).is_err(), "{bad}");
+            assert!(named_path(bad, Reach::Inside).is_err(), "{bad}");
+        }
+        for allowed in ["../a.bin", "/etc/a.bin", "%2e%2e/a.bin"] {
+            assert!(named_path(allowed, Reach::Anywhere).is_ok(), "{allowed}");
+        }
+        for bad in
+            ["", "file:///a", "http://example.org/a", "C:/a.bin", "//machine/a", "%2F/machine/a"]
+        {
+            assert!(named_path(bad, Reach::Anywhere).is_err(), "{bad}");
         }
     }
 }

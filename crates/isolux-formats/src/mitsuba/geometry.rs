@@ -78,6 +78,7 @@ impl Files {
         let flat = scope.take(&shape.at, boolean(shape, "face_normals", false))?;
         let flip = scope.take(&shape.at, boolean(shape, "flip_tex_coords", is_obj))?;
         let path = scope.file(shape)?;
+        let reach = scope.root.reach();
         let known = self.0.entry(path.clone()).or_insert_with(|| {
             let is_replaced = |_: &str| true;
             let read = if is_obj {
@@ -87,6 +88,7 @@ impl Files {
                         unit_is_known: true,
                         is_replaced: &is_replaced,
                         materials: obj::Materials::AsMeant,
+                        reach,
                     },
                 )
             } else {

@@ -25,7 +25,7 @@ mod texture;
 
 use crate::extent::{IMPLAUSIBLE_EXTENT_M, largest_side_m};
 use crate::lines::Notes;
-use crate::{Loaded, Problems};
+use crate::{Loaded, Problems, Reach};
 use isolux::scene::SceneParts;
 use std::path::Path;
 
@@ -33,11 +33,17 @@ pub(crate) use reader::Reading;
 
 /// Reads a scene and the files it names, which must lie in its directory tree.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
+    read_with(path, Reach::Inside)
+}
+
+/// Reads a scene and the files that it may name.
+pub fn read_with(path: &Path, reach: Reach) -> Result<Loaded<SceneParts>, Problems> {
     let reading = Reading {
         unit_is_known: false,
         is_replaced: &|_| false,
         efficacy_lm_w: None,
         is_all: true,
+        reach,
     };
     read_as(path, &reading)
 }
@@ -45,7 +51,7 @@ pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
 /// Reads a scene of which something is known.
 pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<SceneParts>, Problems> {
     let mut notes = Notes::new(path);
-    let Some(root) = parse::parse(path, &mut notes) else {
+    let Some(root) = parse::parse(path, reading.reach, &mut notes) else {
         return notes.finish(SceneParts::default());
     };
     let parts = reader::read(&root, path, reading, &mut notes);

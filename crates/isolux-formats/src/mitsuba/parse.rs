@@ -3,16 +3,17 @@
 use super::limits;
 use super::record::Element;
 use crate::lines::{At, Notes};
-use crate::{product_file, source};
+use crate::reach::Root;
+use crate::{Reach, product_file, source};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::cell::Cell;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::rc::Rc;
 
 /// The root of a scene and of all files it includes; `None` after a problem.
-pub(super) fn parse(path: &Path, notes: &mut Notes) -> Option<Element> {
+pub(super) fn parse(path: &Path, reach: Reach, notes: &mut Notes) -> Option<Element> {
     let mut parser = Parser {
-        root: source::directory_of(path).to_owned(),
+        root: Root::of(path, reach),
         notes,
         defaults: Vec::new(),
         bytes_left: limits::BYTES,
@@ -32,7 +33,7 @@ pub(super) fn parse(path: &Path, notes: &mut Notes) -> Option<Element> {
 }
 
 struct Parser<'a> {
-    root: PathBuf,
+    root: Root,
     notes: &'a mut Notes,
     /// Parameters by name, the longest name first.
     defaults: Vec<(String, String)>,
@@ -182,7 +183,7 @@ impl Parser<'_> {
 
     fn include(&mut self, element: &Element, depth: usize) -> Option<Vec<Element>> {
         let name = element.attribute("filename").unwrap_or_default();
-        let path = match source::within(&self.root, &self.root, name) {
+        let path = match self.root.file(name) {
             Ok(path) => path,
             Err(why) => {
                 let (what, remedy) = why.explain(name);

@@ -9,10 +9,11 @@ use super::record::{Element, Wrong, names};
 use super::scope::Scope;
 use super::sensor;
 use super::surroundings;
+use crate::Reach;
 use crate::efficacy::EFFICACY_LM_W;
 use crate::lines::Notes;
+use crate::reach::Root;
 use crate::round::inside_out;
-use crate::source;
 use isolux::geometry::{Point, Transform};
 use isolux::scene::{Camera, Luminaire, LuminaireKind, SceneParts, Shape, UpAxis};
 use isolux::units::Rgb;
@@ -28,6 +29,8 @@ pub(crate) struct Reading<'a> {
     pub(crate) efficacy_lm_w: Option<f64>,
     /// Whether the file is all of the scene: nothing lies or shines around it.
     pub(crate) is_all: bool,
+    /// Which files it may name.
+    pub(crate) reach: Reach,
 }
 
 /// The scene that a tree of elements is; what is wrong goes to the notes.
@@ -39,7 +42,7 @@ pub(super) fn read(
 ) -> SceneParts {
     let names = names(root);
     let mut reader = Reader {
-        scope: Scope { names, notes, root: source::directory_of(path).to_owned() },
+        scope: Scope { names, notes, root: Root::of(path, reading.reach) },
         palette: Palette::new(reading.is_replaced),
         files: Files::default(),
         efficacy_lm_w: reading.efficacy_lm_w.unwrap_or(EFFICACY_LM_W),

@@ -3,7 +3,7 @@
 use super::property::string;
 use super::record::{Element, Names, Wrong};
 use crate::lines::{At, Notes};
-use crate::source;
+use crate::reach::Root;
 use std::path::PathBuf;
 
 /// The named objects of a scene and what was found in it.
@@ -11,7 +11,7 @@ pub(super) struct Scope<'a, 'n> {
     pub(super) names: Names<'a>,
     pub(super) notes: &'n mut Notes,
     /// The directory in whose tree all files must lie.
-    pub(super) root: PathBuf,
+    pub(super) root: Root,
 }
 
 impl<'a> Scope<'a, '_> {
@@ -53,7 +53,7 @@ impl<'a> Scope<'a, '_> {
             self.refuse(object, "names no file", "give it a string `filename`");
             return None;
         };
-        match source::within(&self.root, &self.root, name) {
+        match self.root.file(name) {
             Ok(path) => Some(path),
             Err(why) => {
                 let (what, remedy) = why.explain(name);

@@ -3,11 +3,11 @@
 use super::lines::place;
 use super::record::{Named, ObjFile};
 use crate::findings::Findings;
-use crate::source::{self, Unreachable};
+use crate::reach::{Root, Unreachable};
 use std::path::{Path, PathBuf};
 
 /// The paths of all libraries of a file; where one that it names is missing, or it names none, that of its own name.
-pub(super) fn paths(root: &Path, file: &ObjFile, findings: &mut Findings) -> Vec<PathBuf> {
+pub(super) fn paths(root: &Root, file: &ObjFile, findings: &mut Findings) -> Vec<PathBuf> {
     let mut paths = Vec::new();
     for library in &file.libraries {
         paths.extend(named(root, library, findings));
@@ -20,20 +20,20 @@ pub(super) fn paths(root: &Path, file: &ObjFile, findings: &mut Findings) -> Vec
 }
 
 /// `mtllib` names one file, blanks included, or several separated by blanks.
-fn named(root: &Path, library: &Named, findings: &mut Findings) -> Vec<PathBuf> {
-    if let Ok(path) = source::within(root, root, &library.name) {
+fn named(root: &Root, library: &Named, findings: &mut Findings) -> Vec<PathBuf> {
+    if let Ok(path) = root.file(&library.name) {
         return vec![path];
     }
-    if let Some(path) = source::in_other_case(root, root, &library.name) {
+    if let Some(path) = root.in_other_case(&library.name) {
         warn_of_case(library, &path, findings);
         return vec![path];
     }
     let mut paths = Vec::new();
     for name in library.name.split_whitespace() {
-        match source::within(root, root, name) {
+        match root.file(name) {
             Ok(path) => paths.push(path),
-            Err(Unreachable::Missing) if source::in_other_case(root, root, name).is_some() => {
-                let path = source::in_other_case(root, root, name);
+            Err(Unreachable::Missing) if root.in_other_case(name).is_some() => {
+                let path = root.in_other_case(name);
                 let library = Named { name: name.to_owned(), line: library.line };
                 path.iter().for_each(|path| warn_of_case(&library, path, findings));
                 paths.extend(path);
@@ -55,11 +55,11 @@ pub(super) fn warn_of_case(named: &Named, path: &Path, findings: &mut Findings) 
 }
 
 /// The library beside the file that differs from it in its extension alone.
-fn of_its_own_name(root: &Path, first_use: &Named, findings: &mut Findings) -> Option<PathBuf> {
+fn of_its_own_name(root: &Root, first_use: &Named, findings: &mut Findings) -> Option<PathBuf> {
     let own = findings.file().with_extension("mtl");
     let name = own.file_name()?.to_string_lossy().into_owned();
-    let found = source::within(root, root, &name);
-    let path = found.ok().or_else(|| source::in_other_case(root, root, &name))?;
+    let found = root.file(&name);
+    let path = found.ok().or_else(|| root.in_other_case(&name))?;
     let found = path.file_name().unwrap_or_default().to_string_lossy();
     let what = format!("no `mtllib` names a file that exists; `{found}` is read");
     findings.warning(place(first_use.line), what, "name the file of the materials by `mtllib`");

@@ -5,6 +5,7 @@ use super::reading::Reading;
 use super::record::{MtlMaterial, Named, ObjFile};
 use super::{libraries, meaning, mtl};
 use crate::findings::Findings;
+use crate::reach::{Root, directory_of};
 use crate::{Loaded, Problem, Problems, picture, source};
 use isolux::scene::{Body, Dielectric, Finish, Material, Texture};
 use isolux::units::Rgb;
@@ -34,8 +35,7 @@ pub(super) fn read_libraries(
     reading: &Reading,
     findings: &mut Findings,
 ) -> Materials {
-    let root = source::directory_of(findings.file()).to_owned();
-    let root = root.as_path();
+    let root = &Root::of(findings.file(), reading.reach);
     let mut known: HashMap<String, (PathBuf, MtlMaterial)> = HashMap::new();
     for path in libraries::paths(root, file, findings) {
         for material in findings.absorb(library(&path, reading.materials)).unwrap_or_default() {
@@ -62,7 +62,7 @@ pub(super) fn read_libraries(
 }
 
 struct Maker<'a> {
-    root: &'a Path,
+    root: &'a Root,
     reading: &'a Reading<'a>,
     known: HashMap<String, (PathBuf, MtlMaterial)>,
     made: HashMap<Option<String>, u32>,
@@ -157,7 +157,7 @@ impl Maker<'_> {
                 if is_glossy(record) {
                     self.note_gloss(record, findings.file());
                 }
-                let base = source::directory_of(findings.file()).to_owned();
+                let base = directory_of(findings.file()).to_owned();
                 let texture =
                     record.map_kd.as_ref().and_then(|named| self.picture(&base, named, findings));
                 let mut finish = finish(record, texture.is_some(), findings);
@@ -179,9 +179,9 @@ impl Maker<'_> {
 
     fn picture(&mut self, base: &Path, named: &Named, findings: &mut Findings) -> Option<u32> {
         let without = "; the material keeps its Kd alone";
-        let path = match source::within(self.root, base, &named.name) {
+        let path = match self.root.file_beside(base, &named.name) {
             Ok(path) => path,
-            Err(why) => match source::in_other_case(self.root, base, &named.name) {
+            Err(why) => match self.root.in_other_case_beside(base, &named.name) {
                 Some(path) => {
                     libraries::warn_of_case(named, &path, findings);
                     path

@@ -31,7 +31,7 @@ mod record;
 mod resolve;
 
 use crate::findings::Findings;
-use crate::{Loaded, Problems, source};
+use crate::{Loaded, Problems, Reach, source};
 use isolux::scene::SceneParts;
 pub use meaning::Materials;
 pub(crate) use reading::Reading;
@@ -41,12 +41,16 @@ const MOST_BYTES: u64 = 1 << 30;
 
 /// Reads an OBJ file and the materials and textures it names, which must lie in its directory tree.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
-    read_with(path, Materials::AsMeant)
+    read_with(path, Materials::AsMeant, Reach::Inside)
 }
 
-/// Reads an OBJ file and its materials as meant or as written.
-pub fn read_with(path: &Path, materials: Materials) -> Result<Loaded<SceneParts>, Problems> {
-    read_as(path, &Reading { unit_is_known: false, is_replaced: &|_| false, materials })
+/// Reads an OBJ file and its materials as meant or as written, and the files that it may name.
+pub fn read_with(
+    path: &Path,
+    materials: Materials,
+    reach: Reach,
+) -> Result<Loaded<SceneParts>, Problems> {
+    read_as(path, &Reading { unit_is_known: false, is_replaced: &|_| false, materials, reach })
 }
 
 /// Reads an OBJ file of which something is known.

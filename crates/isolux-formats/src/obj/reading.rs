@@ -1,6 +1,7 @@
 //! How a file is read.
 
 use super::meaning::Materials;
+use crate::Reach;
 
 /// What is known of a file from elsewhere.
 pub(crate) struct Reading<'a> {
@@ -10,4 +11,6 @@ pub(crate) struct Reading<'a> {
     pub(crate) is_replaced: &'a dyn Fn(&str) -> bool,
     /// Whether materials are read as meant.
     pub(crate) materials: Materials,
+    /// Which files it may name.
+    pub(crate) reach: Reach,
 }

@@ -49,7 +49,7 @@ impl Onto {
         (target, options): (Target, Options),
     ) -> Result<Loaded<Self>, Problems> {
         crate::source::check_present(path)?;
-        let opened = Opened::open(path)?;
+        let opened = Opened::open(path, options.reach)?;
         check_form(&opened)?;
         let matched = matching::find(&opened, scene)?;
         let set = set_of(&opened, &matched, (scene, target))?;

@@ -28,7 +28,7 @@ mod words;
 mod xform;
 
 use crate::extent::{IMPLAUSIBLE_EXTENT_M, largest_side_m};
-use crate::{Loaded, Problems};
+use crate::{Loaded, Problems, Reach};
 pub use irradiance::irradiance_lines;
 use isolux::scene::SceneParts;
 use reader::Reader;
@@ -40,16 +40,23 @@ pub(crate) struct Reading<'a> {
     pub(crate) unit_is_known: bool,
     /// Whether a material is replaced by another: then it is not looked at, and comes out black.
     pub(crate) is_replaced: &'a dyn Fn(&str) -> bool,
+    /// Which files it may name.
+    pub(crate) reach: Reach,
 }
 
 /// Reads a scene and the files it names, which must lie in its directory tree.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
-    read_as(path, &Reading { unit_is_known: false, is_replaced: &|_| false })
+    read_with(path, Reach::Inside)
+}
+
+/// Reads a scene and the files that it may name.
+pub fn read_with(path: &Path, reach: Reach) -> Result<Loaded<SceneParts>, Problems> {
+    read_as(path, &Reading { unit_is_known: false, is_replaced: &|_| false, reach })
 }
 
 /// Reads a scene of which something is known.
 pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<SceneParts>, Problems> {
-    let (parts, mut notes) = Reader::new(path, reading.is_replaced).read(path);
+    let (parts, mut notes) = Reader::new(path, reading.is_replaced, reading.reach).read(path);
     let findings = notes.findings();
     let is_empty = parts.shapes.is_empty() && parts.luminaires.is_empty();
     if is_empty && !findings.has_problems() {

@@ -12,9 +12,11 @@ use super::parse::parse;
 use super::record::{Item, Kind, Object, kind_of};
 use super::tables::Tables;
 use super::tessellate::tessellate;
+use crate::Reach;
 use crate::efficacy::EFFICACY_LM_W;
 use crate::lines::{At, Notes};
-use crate::source::{self, Unreachable};
+use crate::reach::{Root, Unreachable, directory_of};
+use crate::source;
 use isolux::geometry::Point;
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Body, Finish, SceneParts};
@@ -24,7 +26,7 @@ use std::rc::Rc;
 
 /// The scene so far, and the files that were read for it.
 pub(super) struct Reader<'a> {
-    root: PathBuf,
+    root: Root,
     is_replaced: &'a dyn Fn(&str) -> bool,
     notes: Notes,
     files: HashMap<PathBuf, Rc<[Item]>>,
@@ -44,9 +46,9 @@ pub(super) struct Reader<'a> {
 type Going = Option<()>;
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(path: &Path, is_replaced: &'a dyn Fn(&str) -> bool) -> Self {
+    pub(super) fn new(path: &Path, is_replaced: &'a dyn Fn(&str) -> bool, reach: Reach) -> Self {
         Self {
-            root: source::directory_of(path).to_owned(),
+            root: Root::of(path, reach),
             is_replaced,
             notes: Notes::new(path),
             files: HashMap::new(),
@@ -220,8 +222,8 @@ impl<'a> Reader<'a> {
 
     /// A file named in another, relative to it or to the scene.
     fn path_of(&self, name: &str, file: &Path) -> Result<PathBuf, Unreachable> {
-        let beside = source::within(&self.root, source::directory_of(file), name);
-        beside.or_else(|_| source::within(&self.root, &self.root, name))
+        let beside = self.root.file_beside(directory_of(file), name);
+        beside.or_else(|_| self.root.file(name))
     }
 
     fn ies(&mut self, command: &IesCommand, path: &Path, at: &At, frame: &Frame) -> Going {

@@ -8,7 +8,7 @@ use super::modifiers::Modifiers;
 use super::table::{self, Half, Table};
 use super::tessellate::area;
 use crate::lines::Notes;
-use crate::source;
+use crate::reach::{Root, directory_of};
 use isolux::geometry::{Point, Vector};
 use isolux::scene::Shape;
 use isolux::units::Rgb;
@@ -56,7 +56,7 @@ impl Tables {
     pub(super) fn finish(
         &self,
         modifiers: &Modifiers,
-        root: &Path,
+        root: &Root,
         builder: &mut Builder,
         notes: &mut Notes,
     ) {
@@ -80,14 +80,15 @@ impl Light {
     fn make(
         &self,
         modifiers: &Modifiers,
-        root: &Path,
+        root: &Root,
         builder: &mut Builder,
     ) -> Result<(), String> {
         let definition = modifiers.get(self.definition);
         let table = table::parse(definition)?;
-        let base = source::directory_of(&definition.at.file);
-        let path = source::within(root, base, &table.file)
-            .or_else(|_| source::within(root, root, &table.file))
+        let base = directory_of(&definition.at.file);
+        let path = root
+            .file_beside(base, &table.file)
+            .or_else(|_| root.file(&table.file))
             .map_err(|why| why.explain(&table.file).0)?;
         if let table::Shape::Body { area_m2 } = table.shape {
             return self.body(&table, &path, area_m2, builder);

@@ -3,7 +3,8 @@
 use super::spans::{Lines, Span};
 use crate::findings::Findings;
 use crate::obj::Materials;
-use crate::{Loaded, Problem, Problems, source};
+use crate::reach::Root;
+use crate::{Loaded, Problem, Problems, Reach};
 use isolux::scene::UpAxis;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +26,8 @@ pub(super) struct Context {
     pub(super) up: UpAxis,
     /// Whether materials of other formats are read as meant.
     pub(super) materials: Materials,
+    /// Where the files lie that the scene names.
+    pub(super) root: Root,
     triangles_left: usize,
     luminaires_left: usize,
 }
@@ -38,6 +41,7 @@ impl Context {
             unit_m: 1.0,
             up: UpAxis::Z,
             materials: Materials::AsMeant,
+            root: Root::of(path, Reach::Inside),
             triangles_left: MOST_TRIANGLES,
             luminaires_left: MOST_LUMINAIRES,
         }
@@ -108,8 +112,7 @@ impl Context {
 
     /// The path of a file that the scene names.
     pub(super) fn path_of(&mut self, at: &Span, name: &str) -> Option<PathBuf> {
-        let root = source::directory_of(self.findings.file()).to_owned();
-        match source::within(&root, &root, name) {
+        match self.root.file(name) {
             Ok(path) => Some(path),
             Err(why) => {
                 let (what, remedy) = why.explain(name);

@@ -64,23 +64,25 @@ fn open(
 ) -> Option<(Result<Loaded<SceneParts>, Problems>, f64)> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     let is_replaced = |name: &str| record.material.is_some() || record.materials.contains_key(name);
+    let reach = context.root.reach();
     Some(match extension.as_deref() {
         Some("obj") => {
             let materials = context.materials;
             let reading =
-                obj::Reading { unit_is_known: true, is_replaced: &is_replaced, materials };
+                obj::Reading { unit_is_known: true, is_replaced: &is_replaced, materials, reach };
             (obj::read_as(path, &reading), context.unit_m)
         }
         Some("gltf" | "glb") => {
             let reading = gltf::Reading {
                 unit_is_known: record.units.is_some(),
                 unlit_luminance_cd_m2: record.unlit_luminance_cd_m2.as_ref().map(|l| l.get_ref().0),
+                reach,
             };
             (gltf::read_as(path, reading), 1.0)
         }
         Some("rad") => {
             let unit_is_known = record.units.is_some();
-            let reading = rad::Reading { unit_is_known, is_replaced: &is_replaced };
+            let reading = rad::Reading { unit_is_known, is_replaced: &is_replaced, reach };
             (rad::read_as(path, &reading), 1.0)
         }
         Some("xml") => {
@@ -89,6 +91,7 @@ fn open(
                 is_replaced: &is_replaced,
                 efficacy_lm_w: record.efficacy_lm_w.as_ref().map(|e| e.get_ref().0),
                 is_all: false,
+                reach,
             };
             (mitsuba::read_as(path, &reading), 1.0)
         }

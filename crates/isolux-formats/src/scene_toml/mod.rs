@@ -24,7 +24,8 @@ mod text;
 mod write;
 
 use crate::obj::Materials;
-use crate::{Loaded, Problems};
+use crate::reach::Root;
+use crate::{Loaded, Problems, Reach};
 use isolux::scene::SceneParts;
 use isolux::units::Rgb;
 use std::path::Path;
@@ -34,14 +35,19 @@ pub use write::{NamedPhotometry, SceneFile, write};
 /// Reads a scene and all files it names, which must lie in its directory tree; on failure, all
 /// problems with line and column.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
-    read_with(path, Materials::AsMeant)
+    read_with(path, Materials::AsMeant, Reach::Inside)
 }
 
-/// Reads a scene whose files of other formats have materials as meant or as written.
-pub fn read_with(path: &Path, materials: Materials) -> Result<Loaded<SceneParts>, Problems> {
+/// Reads a scene whose files of other formats have materials as meant or as written, and the files that it may name.
+pub fn read_with(
+    path: &Path,
+    materials: Materials,
+    reach: Reach,
+) -> Result<Loaded<SceneParts>, Problems> {
     let text = text::of(path)?;
     let mut context = context::Context::new(path, &text);
     context.materials = materials;
+    context.root = Root::of(path, reach);
     let file = parse::parse(&text, &mut context);
     let parts = resolve::resolve(file, &mut context);
     context.finish(parts)

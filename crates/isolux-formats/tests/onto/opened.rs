@@ -103,8 +103,9 @@ fn skins_keep_their_joints_and_lights_may_go() {
     std::fs::write(&path, file.glb()).unwrap();
     let light = Lit::of(&path, ONE_PAGE);
     for without_lights in [false, true] {
-        let (bytes, warnings) =
-            light.onto(&path, (Target::Three, Options { without_lights })).unwrap();
+        let (bytes, warnings) = light
+            .onto(&path, (Target::Three, Options { without_lights, ..Options::default() }))
+            .unwrap();
         let said = |words: &str| warnings.iter().any(|w| w.what.contains(words));
         assert!(said("skins keep the light of the pose"));
         assert!(said("CESIUM_primitive_outline of primitives stays"));

@@ -1,0 +1,125 @@
+//! One entry for every reader of files of others: bytes in, nothing out. Whoever calls them looks for panics, long runs and memory.
+
+use crate::seal;
+use isolux::scene::{Scene, SceneParts};
+use isolux_formats::lint::audit;
+use isolux_formats::obj::Materials;
+use isolux_formats::photometric_file::{PhotometricFile, Target, convert};
+use isolux_formats::{
+    Loaded, Problems, Reach, cache_file, checkpoint, load, load_with, map_glb, picture,
+};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// The longest cache and checkpoint that is read, bytes.
+const MOST_BYTES: u64 = 1 << 24;
+
+/// Files that scenes may name, whatever else is wrong with them.
+const BESIDE: [(&str, &[u8]); 6] = [
+    ("beside.obj", include_bytes!("beside/beside.obj")),
+    ("beside.mtl", include_bytes!("beside/beside.mtl")),
+    ("beside.png", include_bytes!("beside/beside.png")),
+    ("beside.rad", b"void plastic p 0 0 5 .5 .5 .5 0 0\np polygon f 0 0 9 0 0 0 1 0 0 0 1 0\n"),
+    ("beside.ies", include_bytes!("../../../../scenes/photometry/own/downlight.ies")),
+    ("beside.ldt", include_bytes!("../../../../scenes/photometry/photometric-viewer/dummy.ldt")),
+];
+
+/// A folder of its own with a few good files in it.
+pub(crate) struct Home(TempDir);
+
+impl Home {
+    pub(crate) fn new() -> Self {
+        let home = Self(tempfile::tempdir().expect("a folder for temporary files"));
+        BESIDE.iter().for_each(|(name, bytes)| drop(home.write(name, bytes)));
+        home
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> PathBuf {
+        let path = self.0.path().join(name);
+        std::fs::write(&path, bytes).expect("space for a small file");
+        path
+    }
+}
+
+/// A reader and how it is called.
+pub(crate) struct Entry {
+    pub(crate) name: &'static str,
+    pub(crate) read: fn(&Home, &[u8]),
+    /// Repairs what would keep changed bytes from being looked at: checksums and lengths.
+    pub(crate) seal: fn(&[u8]) -> Vec<u8>,
+}
+
+const fn entry(name: &'static str, read: fn(&Home, &[u8])) -> Entry {
+    Entry { name, read, seal: <[u8]>::to_vec }
+}
+
+/// All of them.
+pub(crate) const ENTRIES: [Entry; 15] = [
+    entry("gltf", |home, bytes| scene(load(&home.write("scene.gltf", bytes)))),
+    Entry {
+        seal: seal::container,
+        ..entry("glb", |home, bytes| scene(load(&home.write("scene.glb", bytes))))
+    },
+    entry("obj", |home, bytes| with_both_meanings(&home.write("scene.obj", bytes))),
+    entry("mtl", |home, bytes| {
+        home.write("hostile.mtl", bytes);
+        with_both_meanings(&home.write("scene.obj", include_bytes!("beside/of_hostile_mtl.obj")));
+    }),
+    entry("ply", |home, bytes| scene(load(&home.write("scene.ply", bytes)))),
+    entry("stl", |home, bytes| scene(load(&home.write("scene.stl", bytes)))),
+    entry("ies", |_, bytes| lamp(Path::new("lamp.ies"), bytes)),
+    entry("ldt", |_, bytes| lamp(Path::new("lamp.ldt"), bytes)),
+    entry("rad", |home, bytes| scene(load(&home.write("scene.rad", bytes)))),
+    entry("mitsuba", |home, bytes| scene(load(&home.write("scene.xml", bytes)))),
+    entry("scene_toml", |home, bytes| scene(load(&home.write("scene.toml", bytes)))),
+    entry("picture", |home, bytes| drop(picture::read(&home.write("picture.png", bytes)))),
+    Entry { seal: seal::map, ..entry("map", map) },
+    Entry {
+        seal: seal::checkpoint,
+        ..entry("checkpoint", |home, bytes| {
+            drop(checkpoint::read(&home.write("map.checkpoint", bytes), MOST_BYTES));
+        })
+    },
+    Entry {
+        seal: seal::cache,
+        ..entry("cache", |home, bytes| {
+            drop(cache_file::read(&home.write("room.cache", bytes), MOST_BYTES));
+        })
+    },
+];
+
+/// A refusal says what is wrong; what is read is a scene or no scene, and that is said, too.
+fn scene(read: Result<Loaded<SceneParts>, Problems>) {
+    match read {
+        Ok(loaded) => drop(Scene::assemble(loaded.value)),
+        Err(Problems(list)) => assert!(!list.is_empty(), "refused without a word"),
+    }
+}
+
+fn with_both_meanings(path: &Path) {
+    scene(load_with(path, Materials::AsMeant, Reach::Inside));
+    scene(load_with(path, Materials::AsWritten, Reach::Inside));
+}
+
+/// What is read as light is light, and the other format holds it or says why not.
+fn lamp(path: &Path, bytes: &[u8]) {
+    let audit = audit(path, bytes, PhotometricFile::parse(bytes, path));
+    let Some((file, web)) = &audit.usable else {
+        assert!(!audit.findings.is_empty(), "refused without a word");
+        return;
+    };
+    let flux = web.luminous_flux_lm();
+    assert!(flux >= 0.0 && flux.is_finite(), "{flux}");
+    let target = match file {
+        PhotometricFile::Ies(_) => Target::Ldt,
+        PhotometricFile::Ldt(_) => Target::Ies,
+    };
+    drop(convert(file, target));
+}
+
+fn map(home: &Home, bytes: &[u8]) {
+    let path = home.write("map.glb", bytes);
+    map_glb::is_map(&path);
+    map_glb::is_export(&path);
+    drop(map_glb::read_with_texels(&path));
+}

@@ -1,0 +1,103 @@
+//! Every reader with files made hostile: no panic, no long run, no memory on the word of a count. `fuzz/` calls the same entries.
+
+#![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
+
+mod bend;
+mod entry;
+#[path = "../map_glb/example.rs"]
+mod example;
+mod seal;
+mod seeds;
+#[path = "../spoil/mod.rs"]
+mod spoil;
+
+use bend::bend;
+use entry::{ENTRIES, Entry, Home};
+use isolux_formats::map_glb;
+use spoil::Dice;
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
+
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// The folder of the crate.
+const FORMATS: &str = env!("CARGO_MANIFEST_DIR");
+
+/// Hostile files of each entry, unless `HOSTILE_CASES` says another number; `HOSTILE_SEED` makes others.
+const CASES: u64 = 1000;
+/// No file of some kilobytes takes longer, on a busy machine and with little optimization.
+const MOST_TIME: Duration = Duration::from_secs(10);
+/// Nor does it take more memory: all that is taken while it is read, given back or not.
+const MOST_BYTES: usize = 1 << 30;
+
+/// A number that the environment may choose.
+fn chosen(name: &str, otherwise: u64) -> u64 {
+    std::env::var(name).map_or(otherwise, |text| text.parse().unwrap())
+}
+
+/// What a reading did that none may do.
+fn harm(entry: &Entry, home: &Home, bytes: &[u8]) -> Option<String> {
+    let before = Region::new(ALLOCATOR);
+    let begun = Instant::now();
+    let ended = catch_unwind(AssertUnwindSafe(|| (entry.read)(home, bytes)));
+    let taken = before.change().bytes_allocated;
+    match ended {
+        Err(_) => Some("panics".into()),
+        Ok(()) if taken > MOST_BYTES => Some(format!("takes {} MiB", taken >> 20)),
+        Ok(()) if begun.elapsed() > MOST_TIME => Some(format!("takes {:?}", begun.elapsed())),
+        Ok(()) => None,
+    }
+}
+
+/// Keeps the file that did it and says where.
+fn check(entry: &Entry, home: &Home, bytes: &[u8]) {
+    let Some(harm) = harm(entry, home, bytes) else { return };
+    let path = std::env::temp_dir().join(format!("isolux-hostile-{}", entry.name));
+    std::fs::write(&path, bytes).unwrap();
+    panic!("{} {harm} with {}", entry.name, path.display());
+}
+
+/// One after the other: the allocator counts for all threads.
+#[test]
+fn hostile_files_do_no_harm() {
+    let home = Home::new();
+    for entry in &ENTRIES {
+        let seeds = seeds::of(entry.name);
+        assert!(!seeds.is_empty(), "{} has no seeds", entry.name);
+        seeds.iter().for_each(|seed| check(entry, &home, seed));
+        let mut dice = Dice(chosen("HOSTILE_SEED", 1));
+        for _ in 0..chosen("HOSTILE_CASES", CASES) {
+            let mut bytes = seeds[dice.below(seeds.len())].clone();
+            for _ in 0..=dice.below(4) {
+                bend(&mut bytes, &seeds[dice.below(seeds.len())], &mut dice);
+            }
+            check(entry, &home, &(entry.seal)(&bytes));
+        }
+        seeds::found(entry.name).iter().for_each(|(_, bytes)| check(entry, &home, bytes));
+    }
+}
+
+fn map_is_read(bytes: &[u8]) -> bool {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("map.glb");
+    std::fs::write(&path, bytes).unwrap();
+    map_glb::read(&path).is_ok()
+}
+
+#[test]
+fn good_files_stay_as_they_are_when_sealed() {
+    for entry in &ENTRIES {
+        for seed in seeds::of(entry.name) {
+            let sealed = (entry.seal)(&seed);
+            // The JSON of a map is written anew, its members in another order, and the sum stays the same.
+            let is_same = match entry.name {
+                "map" => sealed.len() == seed.len() && map_is_read(&sealed),
+                _ => sealed == seed,
+            };
+            assert!(is_same, "{}", entry.name);
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Good files to begin with: small ones of this folder, of the repository, and some that are written here.
+
+use crate::example;
+use isolux::engine::{CACHE_REPLICATES, CacheSample, SampleKind};
+use isolux::geometry::{Direction, Point};
+use isolux::units::Rgb;
+use isolux_formats::cache_file::CacheFile;
+use isolux_formats::checkpoint::{self, Checkpoint};
+use isolux_formats::map_glb::{self, Preview};
+use std::path::{Path, PathBuf};
+
+/// Longer files of the repository are no seeds: changes would be lost in them.
+const LONGEST_BYTES: usize = 12_000;
+
+/// Folders of the repository, the kind of file in them, and the entry that reads those.
+const FOLDERS: [(&str, &str, &str); 11] = [
+    ("tests/data/gltf", "glb", "glb"),
+    ("../../scenes/cornell_mcguire", "obj", "obj"),
+    ("../../scenes/cornell_embree", "obj", "obj"),
+    ("../../scenes/cornell_mcguire", "mtl", "mtl"),
+    ("../../scenes/photometry/own", "ies", "ies"),
+    ("../../scenes/photometry/photometric-viewer", "ies", "ies"),
+    ("../../scenes/photometry/photometric-viewer", "ldt", "ldt"),
+    ("../../scenes/cornell_mitsuba", "xml", "mitsuba"),
+    ("../../scenes/cornell_embree", "toml", "scene_toml"),
+    ("../../scenes/demo", "toml", "scene_toml"),
+    ("tests/hostile/beside", "png", "picture"),
+];
+
+fn under(folder: &str) -> PathBuf {
+    Path::new(crate::FORMATS).join(folder)
+}
+
+/// The files of a folder in the order of their names; none where there is no folder.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.is_file());
+    paths.sort();
+    paths
+}
+
+/// The files with which an entry begins.
+pub(crate) fn of(entry: &str) -> Vec<Vec<u8>> {
+    let own = files(&under("tests/hostile/seeds").join(entry));
+    let folders = FOLDERS.iter().filter(|(_, _, reader)| *reader == entry);
+    let others = folders.flat_map(|(folder, kind, _)| {
+        files(&under(folder))
+            .into_iter()
+            .filter(|path| path.extension().is_some_and(|e| e == *kind))
+    });
+    let read = own.into_iter().chain(others).map(|path| std::fs::read(path).unwrap());
+    read.filter(|bytes| bytes.len() <= LONGEST_BYTES).chain(written(entry)).collect()
+}
+
+/// What once did harm to an entry.
+pub(crate) fn found(entry: &str) -> Vec<(PathBuf, Vec<u8>)> {
+    let files = files(&under("tests/hostile/found").join(entry)).into_iter();
+    files.map(|path| (path.clone(), std::fs::read(path).unwrap())).collect()
+}
+
+fn written(entry: &str) -> Option<Vec<u8>> {
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("seed");
+    match entry {
+        "map" => return Some(map()),
+        "checkpoint" => checkpoint::write(&path, &run()).unwrap(),
+        "cache" => {
+            let (mut file, _) = CacheFile::open(&path, ("room", "abcd"), 1 << 20).unwrap();
+            file.append(&[sample(0), sample(1)]).unwrap();
+            file.append(&[sample(2)]).unwrap();
+        }
+        _ => return None,
+    }
+    Some(std::fs::read(path).unwrap())
+}
+
+fn map() -> Vec<u8> {
+    let scene = example::scene();
+    let map = example::map(&scene);
+    map_glb::write(&scene, &map, &Preview::automatic(&scene, &map)).unwrap()
+}
+
+fn run() -> Checkpoint {
+    let mut checkpoint = Checkpoint::new(serde_json::json!({"scene_hash": "ab", "seed": 7}));
+    checkpoint.push("counters", &[1_u64, 2, u64::MAX]);
+    checkpoint.push("sums", &[i128::MIN, -1, 0]);
+    checkpoint
+}
+
+fn sample(triangle: u32) -> CacheSample {
+    CacheSample {
+        kind: if triangle == 0 { SampleKind::Near } else { SampleKind::Far },
+        position: Point::new(0.5, 0.1, -2.0),
+        normal: Direction::Y.to_normal(),
+        triangle,
+        radius_m: 0.3,
+        nearest_m: 0.2,
+        replicates_lx: [Rgb::grey(0.5); CACHE_REPLICATES],
+        along: [Rgb::new(1.0, -2.0, 3.0); 3],
+        turning: [Rgb::grey(-0.25); 3],
+    }
+}
