@@ -76,6 +76,7 @@ fn hostile_files_do_no_harm() {
             }
             check(entry, &home, &(entry.seal)(&bytes));
         }
+        seeds::long(entry.name).iter().for_each(|bytes| check(entry, &home, bytes));
         seeds::found(entry.name).iter().for_each(|(_, bytes)| check(entry, &home, bytes));
     }
 }

@@ -59,6 +59,15 @@ pub(crate) fn found(entry: &str) -> Vec<(PathBuf, Vec<u8>)> {
     files.map(|path| (path.clone(), std::fs::read(path).unwrap())).collect()
 }
 
+/// What once did harm and is too long to be kept as a file.
+pub(crate) fn long(entry: &str) -> Option<Vec<u8>> {
+    match entry {
+        // The folder was read again for every name.
+        "obj" => Some(format!("mtllib{}\nv 0 0 0\nf 1 1 1\n", " a<b".repeat(50_000)).into_bytes()),
+        _ => None,
+    }
+}
+
 fn written(entry: &str) -> Option<Vec<u8>> {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("seed");
