@@ -5,7 +5,7 @@
 use isolux::scene::{Body, Scene, SceneParts, UpAxis};
 use isolux::units::Rgb;
 use isolux_formats::obj::{self, Materials};
-use isolux_formats::{Loaded, Problems};
+use isolux_formats::{Loaded, Problems, Reach};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -193,7 +193,7 @@ fn library(mtl: &str, materials: Materials) -> (HashMap<String, Body>, Vec<Strin
     let path = dir.path().join("thing.obj");
     std::fs::write(&path, format!("mtllib thing.mtl\n{faces}")).unwrap();
     std::fs::write(dir.path().join("thing.mtl"), mtl).unwrap();
-    let loaded = obj::read_with(&path, materials).unwrap();
+    let loaded = obj::read_with(&path, materials, Reach::Inside).unwrap();
     let bodies = loaded.value.materials.into_iter().map(|m| (m.name, m.body)).collect();
     (bodies, loaded.warnings.iter().map(ToString::to_string).collect())
 }

@@ -29,7 +29,7 @@ pub(crate) fn container(bytes: &[u8]) -> Vec<u8> {
     put_word(&mut sealed, 8, length);
     let json = word(&sealed, 12).unwrap_or(0);
     let binary = GLB_PREFIX_BYTES.saturating_add(json);
-    if binary + 8 > length || json % 4 != 0 {
+    if binary + 8 > length || !json.is_multiple_of(4) {
         put_word(&mut sealed, 12, length - GLB_PREFIX_BYTES);
     } else {
         put_word(&mut sealed, binary, length - binary - 8);
