@@ -8,7 +8,7 @@ mod requests;
 #[path = "../../crates/isolux-formats/tests/hostile/seal.rs"]
 mod seal;
 #[path = "../../crates/isolux-formats/tests/hostile/seeds.rs"]
-#[allow(dead_code, reason = "files found before are read by the test")]
+#[allow(dead_code, reason = "what did harm before is read by the test")]
 mod seeds;
 
 use entry::{ENTRIES, Home};

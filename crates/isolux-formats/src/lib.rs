@@ -24,6 +24,7 @@ pub mod map_glb;
 pub mod mitsuba;
 pub mod obj;
 pub mod onto;
+mod other_case;
 pub mod photometric_file;
 pub mod picture;
 mod plain_text;

@@ -94,25 +94,6 @@ impl Root {
         if real.starts_with(home) { Ok(()) } else { Err(Unreachable::Outside) }
     }
 
-    /// A file of the folder whose name differs from a missing one in the case of its letters, as it may on a disk of Windows.
-    pub(crate) fn in_other_case(&self, name: &str) -> Option<PathBuf> {
-        self.in_other_case_beside(&self.folder, name)
-    }
-
-    /// The same for a file named relative to `base`.
-    pub(crate) fn in_other_case_beside(&self, base: &Path, name: &str) -> Option<PathBuf> {
-        let name = name.replace('\\', "/");
-        let relative = Path::new(&name);
-        let wanted = relative.file_name()?.to_str()?;
-        let folder = relative.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let beside = std::fs::read_dir(base.join(folder.unwrap_or(Path::new(".")))).ok()?;
-        let names = beside.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-        let mut alike: Vec<String> = names.filter(|own| own.eq_ignore_ascii_case(wanted)).collect();
-        alike.sort_unstable();
-        let found = relative.with_file_name(alike.first()?);
-        self.file_beside(base, found.to_str()?).ok()
-    }
-
     /// The folder.
     pub(crate) fn folder(&self) -> &Path {
         &self.folder
@@ -168,8 +149,6 @@ mod tests {
         assert_eq!(reach("\\\\machine\\a.txt"), Err(Unreachable::Remote));
         assert_eq!(reach("sub/b.txt"), Err(Unreachable::Missing));
         assert_eq!(reach("sub"), Err(Unreachable::Directory));
-        assert_eq!(root.in_other_case("sub\\A.TXT"), Some(folder.join("sub/a.txt")));
-        assert_eq!(root.in_other_case("../SECRET.txt"), None);
         let sub = folder.join("sub");
         assert_eq!(root.file_beside(&sub, "../../secret.txt"), Err(Unreachable::Outside));
         #[cfg(unix)]
@@ -189,6 +168,5 @@ mod tests {
         assert_eq!(root.file(secret.to_str().unwrap()), Ok(secret));
         assert_eq!(root.file("../none.txt"), Err(Unreachable::Missing));
         assert_eq!(root.file("//machine/a.txt"), Err(Unreachable::Remote));
-        assert!(root.in_other_case("../SECRET.txt").is_some());
     }
 }

@@ -4,7 +4,7 @@ use super::property::{boolean, string, transform};
 use super::record::Element;
 use super::scope::Scope;
 use super::spectrum::{Of, colour};
-use crate::picture;
+use crate::picture::Room;
 use crate::srgb::code;
 use isolux::geometry::Transform;
 use isolux::scene::Texture;
@@ -37,6 +37,7 @@ const BOARD: u32 = 64;
 pub(super) struct Pictures {
     pub(super) list: Vec<Texture>,
     of_file: HashMap<(PathBuf, bool), Option<u32>>,
+    room: Room,
     of_board: HashMap<[u64; 6], u32>,
 }
 
@@ -92,22 +93,20 @@ impl Pictures {
             );
         }
         let path = scope.file(texture)?;
-        let list = &mut self.list;
+        let (list, room) = (&mut self.list, &mut self.room);
         let index =
-            *self.of_file.entry((path.clone(), raw)).or_insert_with(|| {
-                match picture::read(&path) {
-                    Ok(mut read) => {
-                        if raw {
-                            read.srgb.iter_mut().for_each(|c| *c = code(f64::from(*c) / 255.0));
-                        }
-                        list.push(read);
-                        Some(list.len() as u32 - 1)
+            *self.of_file.entry((path.clone(), raw)).or_insert_with(|| match room.read(&path) {
+                Ok(mut read) => {
+                    if raw {
+                        read.srgb.iter_mut().for_each(|c| *c = code(f64::from(*c) / 255.0));
                     }
-                    Err(problem) => {
-                        let what = format!("`{}` {}", path.display(), problem.what);
-                        scope.notes.problem(&texture.at, what, problem.remedy);
-                        None
-                    }
+                    list.push(read);
+                    Some(list.len() as u32 - 1)
+                }
+                Err(problem) => {
+                    let what = format!("`{}` {}", path.display(), problem.what);
+                    scope.notes.problem(&texture.at, what, problem.remedy);
+                    None
                 }
             });
         Some(Picture { index: index?, to_uv })

@@ -3,41 +3,51 @@
 use super::lines::place;
 use super::record::{Named, ObjFile};
 use crate::findings::Findings;
+use crate::other_case::Listings;
 use crate::reach::{Root, Unreachable};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// The paths of all libraries of a file; where one that it names is missing, or it names none, that of its own name.
-pub(super) fn paths(root: &Root, file: &ObjFile, findings: &mut Findings) -> Vec<PathBuf> {
+/// Where files lie, and under which names.
+type Place<'a> = (&'a Root, &'a mut Listings);
+
+/// The paths of all libraries of a file, each once, in the order in which they were last named: what comes later counts. Where one
+/// that it names is missing, or it names none, it is that of its own name.
+pub(super) fn paths(
+    (root, listings): Place<'_>,
+    file: &ObjFile,
+    findings: &mut Findings,
+) -> Vec<PathBuf> {
     let mut paths = Vec::new();
     for library in &file.libraries {
-        paths.extend(named(root, library, findings));
+        paths.extend(named((root, listings), library, findings));
     }
     let first_use = file.parts.iter().find_map(|part| part.material.as_ref());
     if let (true, Some(first_use)) = (paths.is_empty(), first_use) {
-        paths.extend(of_its_own_name(root, first_use, findings));
+        paths.extend(of_its_own_name((root, listings), first_use, findings));
     }
+    each_once(paths)
+}
+
+/// Without those that come again.
+fn each_once(mut paths: Vec<PathBuf>) -> Vec<PathBuf> {
+    let mut seen = HashSet::new();
+    paths.reverse();
+    paths.retain(|path| seen.insert(path.clone()));
+    paths.reverse();
     paths
 }
 
 /// `mtllib` names one file, blanks included, or several separated by blanks.
-fn named(root: &Root, library: &Named, findings: &mut Findings) -> Vec<PathBuf> {
-    if let Ok(path) = root.file(&library.name) {
-        return vec![path];
-    }
-    if let Some(path) = root.in_other_case(&library.name) {
-        warn_of_case(library, &path, findings);
+fn named((root, listings): Place<'_>, library: &Named, findings: &mut Findings) -> Vec<PathBuf> {
+    if let Ok(path) = one((root, listings), library, findings) {
         return vec![path];
     }
     let mut paths = Vec::new();
     for name in library.name.split_whitespace() {
-        match root.file(name) {
+        let library = Named { name: name.to_owned(), line: library.line };
+        match one((root, listings), &library, findings) {
             Ok(path) => paths.push(path),
-            Err(Unreachable::Missing) if root.in_other_case(name).is_some() => {
-                let path = root.in_other_case(name);
-                let library = Named { name: name.to_owned(), line: library.line };
-                path.iter().for_each(|path| warn_of_case(&library, path, findings));
-                paths.extend(path);
-            }
             Err(why) => {
                 let (what, remedy) = why.explain(name);
                 findings.warning(place(library.line), what, remedy);
@@ -45,6 +55,19 @@ fn named(root: &Root, library: &Named, findings: &mut Findings) -> Vec<PathBuf> 
         }
     }
     paths
+}
+
+/// The file of a name; with a warning one whose letters are of another case.
+fn one(
+    (root, listings): Place<'_>,
+    library: &Named,
+    findings: &mut Findings,
+) -> Result<PathBuf, Unreachable> {
+    root.file(&library.name).or_else(|why| {
+        let path = listings.find(root, root.folder(), &library.name).ok_or(why)?;
+        warn_of_case(library, &path, findings);
+        Ok(path)
+    })
 }
 
 /// A name that differs from that of a file in the case of its letters.
@@ -55,11 +78,15 @@ pub(super) fn warn_of_case(named: &Named, path: &Path, findings: &mut Findings) 
 }
 
 /// The library beside the file that differs from it in its extension alone.
-fn of_its_own_name(root: &Root, first_use: &Named, findings: &mut Findings) -> Option<PathBuf> {
+fn of_its_own_name(
+    (root, listings): Place<'_>,
+    first_use: &Named,
+    findings: &mut Findings,
+) -> Option<PathBuf> {
     let own = findings.file().with_extension("mtl");
     let name = own.file_name()?.to_string_lossy().into_owned();
     let found = root.file(&name);
-    let path = found.ok().or_else(|| root.in_other_case(&name))?;
+    let path = found.ok().or_else(|| listings.find(root, root.folder(), &name))?;
     let found = path.file_name().unwrap_or_default().to_string_lossy();
     let what = format!("no `mtllib` names a file that exists; `{found}` is read");
     findings.warning(place(first_use.line), what, "name the file of the materials by `mtllib`");

@@ -5,13 +5,16 @@ use super::reading::Reading;
 use super::record::{MtlMaterial, Named, ObjFile};
 use super::{libraries, meaning, mtl};
 use crate::findings::Findings;
+use crate::other_case::Listings;
+use crate::picture::Room;
 use crate::reach::{Root, directory_of};
-use crate::{Loaded, Problem, Problems, picture, source};
+use crate::{Loaded, Problem, Problems, source};
 use isolux::scene::{Body, Dielectric, Finish, Material, Texture};
 use isolux::units::Rgb;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+/// Bytes of all libraries of a file.
 const MOST_BYTES: u64 = 64 << 20;
 /// What a surface reflects of which nothing is known.
 const UNKNOWN_REFLECTANCE: f64 = 0.5;
@@ -37,8 +40,11 @@ pub(super) fn read_libraries(
 ) -> Materials {
     let root = &Root::of(findings.file(), reading.reach);
     let mut known: HashMap<String, (PathBuf, MtlMaterial)> = HashMap::new();
-    for path in libraries::paths(root, file, findings) {
-        for material in findings.absorb(library(&path, reading.materials)).unwrap_or_default() {
+    let mut listings = Listings::default();
+    let mut bytes_left = MOST_BYTES;
+    for path in libraries::paths((root, &mut listings), file, findings) {
+        let read = library(&path, reading.materials, &mut bytes_left);
+        for material in findings.absorb(read).unwrap_or_default() {
             known.insert(material.name.clone(), (path.clone(), material));
         }
     }
@@ -49,6 +55,8 @@ pub(super) fn read_libraries(
         known,
         made: HashMap::new(),
         pictures: HashMap::new(),
+        room: Room::default(),
+        listings,
         materials: Materials::default(),
     };
     for part in &file.parts {
@@ -67,6 +75,8 @@ struct Maker<'a> {
     known: HashMap<String, (PathBuf, MtlMaterial)>,
     made: HashMap<Option<String>, u32>,
     pictures: HashMap<PathBuf, Option<u32>>,
+    room: Room,
+    listings: Listings,
     materials: Materials,
     glossy: Option<Glossy>,
 }
@@ -75,8 +85,10 @@ struct Maker<'a> {
 fn library(
     path: &Path,
     materials: meaning::Materials,
+    bytes_left: &mut u64,
 ) -> Result<Loaded<Vec<MtlMaterial>>, Problems> {
-    let text = source::read_text(path, MOST_BYTES)?;
+    let text = source::read_text(path, *bytes_left)?;
+    *bytes_left = bytes_left.saturating_sub(text.len() as u64);
     let mut findings = Findings::new(path);
     let mut list = mtl::parse(&text, &mut findings);
     if materials == meaning::Materials::AsMeant {
@@ -181,7 +193,7 @@ impl Maker<'_> {
         let without = "; the material keeps its Kd alone";
         let path = match self.root.file_beside(base, &named.name) {
             Ok(path) => path,
-            Err(why) => match self.root.in_other_case_beside(base, &named.name) {
+            Err(why) => match self.listings.find(self.root, base, &named.name) {
                 Some(path) => {
                     libraries::warn_of_case(named, &path, findings);
                     path
@@ -196,7 +208,7 @@ impl Maker<'_> {
         if let Some(&known) = self.pictures.get(&path) {
             return known;
         }
-        let index = match picture::read(&path) {
+        let index = match self.room.read(&path) {
             Ok(texture) => {
                 self.materials.textures.push(texture);
                 Some(self.materials.textures.len() as u32 - 1)

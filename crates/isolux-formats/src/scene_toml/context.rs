@@ -3,6 +3,7 @@
 use super::spans::{Lines, Span};
 use crate::findings::Findings;
 use crate::obj::Materials;
+use crate::picture::Room;
 use crate::reach::Root;
 use crate::{Loaded, Problem, Problems, Reach};
 use isolux::scene::UpAxis;
@@ -28,6 +29,8 @@ pub(super) struct Context {
     pub(super) materials: Materials,
     /// Where the files lie that the scene names.
     pub(super) root: Root,
+    /// Room for pictures.
+    pub(super) pictures: Room,
     triangles_left: usize,
     luminaires_left: usize,
 }
@@ -42,6 +45,7 @@ impl Context {
             up: UpAxis::Z,
             materials: Materials::AsMeant,
             root: Root::of(path, Reach::Inside),
+            pictures: Room::default(),
             triangles_left: MOST_TRIANGLES,
             luminaires_left: MOST_LUMINAIRES,
         }

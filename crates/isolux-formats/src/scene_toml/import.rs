@@ -6,6 +6,7 @@ use super::placement::scene_from_up;
 use super::record::GeometryRecord;
 use super::shapes::Piece;
 use super::spans::At;
+use crate::picture::MOST_PIXELS_OF_SCENE;
 use crate::{Loaded, Problems, bare, gltf, mitsuba, obj, ply, rad, stl};
 use isolux::geometry::Direction;
 use isolux::geometry::Transform;
@@ -38,6 +39,11 @@ pub(super) fn read(
     refuse_unlit_luminance(file, record, context);
     let (read, usual_unit_m) = open(&path, file, record, context)?;
     let mut parts = context.findings.absorb(read)?;
+    if !context.pictures.take(&parts.textures) {
+        let what = format!("its pictures are more than the {MOST_PIXELS_OF_SCENE} pixels in all");
+        context.problem(&file.span(), what, "make them smaller");
+        return None;
+    }
     let unit_m = record.units.as_ref().map_or(usual_unit_m, |unit| unit.get_ref().metres());
     let up = record.up.as_ref().map_or(parts.up, |up| *up.get_ref());
     let scale = Transform::scale(unit_m, unit_m, unit_m);

@@ -4,7 +4,6 @@ use super::context::Context;
 use super::quantity::Colour;
 use super::record::{CoatRecord, FinishRecord, GlassRecord, GlossRecord, MaterialRecord, Sided};
 use super::spans::{At, Span};
-use crate::picture;
 use isolux::scene::{Body, Coat, Dielectric, Finish, Gloss, Material, Reflectance, SceneParts};
 use isolux::units::Rgb;
 use std::collections::HashMap;
@@ -197,7 +196,7 @@ impl Maker<'_> {
         if let Some(&known) = self.pictures.get(&path) {
             return Some(known);
         }
-        match picture::read(&path) {
+        match self.context.pictures.read(&path) {
             Ok(texture) => {
                 let index = self.scene.textures.len() as u32;
                 self.scene.textures.push(texture);

@@ -1,4 +1,5 @@
-//! One entry for every reader of files of others: bytes in, nothing out. Whoever calls them looks for panics, long runs and memory.
+//! One entry for every reader of files of others: bytes in, and whether they are read. Whoever calls them looks for panics, long runs
+//! and memory.
 
 use crate::seal;
 use isolux::scene::{Scene, SceneParts};
@@ -15,10 +16,11 @@ use tempfile::TempDir;
 const MOST_BYTES: u64 = 1 << 24;
 
 /// Files that scenes may name, whatever else is wrong with them.
-const BESIDE: [(&str, &[u8]); 6] = [
+const BESIDE: [(&str, &[u8]); 7] = [
     ("beside.obj", include_bytes!("beside/beside.obj")),
     ("beside.mtl", include_bytes!("beside/beside.mtl")),
     ("beside.png", include_bytes!("beside/beside.png")),
+    ("beside.ply", include_bytes!("seeds/ply/ascii.ply")),
     ("beside.rad", b"void plastic p 0 0 5 .5 .5 .5 0 0\np polygon f 0 0 9 0 0 0 1 0 0 0 1 0\n"),
     ("beside.ies", include_bytes!("../../../../scenes/photometry/own/downlight.ies")),
     ("beside.ldt", include_bytes!("../../../../scenes/photometry/photometric-viewer/dummy.ldt")),
@@ -44,12 +46,12 @@ impl Home {
 /// A reader and how it is called.
 pub(crate) struct Entry {
     pub(crate) name: &'static str,
-    pub(crate) read: fn(&Home, &[u8]),
+    pub(crate) read: fn(&Home, &[u8]) -> bool,
     /// Repairs what would keep changed bytes from being looked at: checksums and lengths.
     pub(crate) seal: fn(&[u8]) -> Vec<u8>,
 }
 
-const fn entry(name: &'static str, read: fn(&Home, &[u8])) -> Entry {
+const fn entry(name: &'static str, read: fn(&Home, &[u8]) -> bool) -> Entry {
     Entry { name, read, seal: <[u8]>::to_vec }
 }
 
@@ -63,7 +65,7 @@ pub(crate) const ENTRIES: [Entry; 15] = [
     entry("obj", |home, bytes| with_both_meanings(&home.write("scene.obj", bytes))),
     entry("mtl", |home, bytes| {
         home.write("hostile.mtl", bytes);
-        with_both_meanings(&home.write("scene.obj", include_bytes!("beside/of_hostile_mtl.obj")));
+        with_both_meanings(&home.write("scene.obj", include_bytes!("beside/of_hostile_mtl.obj")))
     }),
     entry("ply", |home, bytes| scene(load(&home.write("scene.ply", bytes)))),
     entry("stl", |home, bytes| scene(load(&home.write("scene.stl", bytes)))),
@@ -72,41 +74,44 @@ pub(crate) const ENTRIES: [Entry; 15] = [
     entry("rad", |home, bytes| scene(load(&home.write("scene.rad", bytes)))),
     entry("mitsuba", |home, bytes| scene(load(&home.write("scene.xml", bytes)))),
     entry("scene_toml", |home, bytes| scene(load(&home.write("scene.toml", bytes)))),
-    entry("picture", |home, bytes| drop(picture::read(&home.write("picture.png", bytes)))),
+    entry("picture", |home, bytes| picture::read(&home.write("picture.png", bytes)).is_ok()),
     Entry { seal: seal::map, ..entry("map", map) },
     Entry {
         seal: seal::checkpoint,
         ..entry("checkpoint", |home, bytes| {
-            drop(checkpoint::read(&home.write("map.checkpoint", bytes), MOST_BYTES));
+            checkpoint::read(&home.write("map.checkpoint", bytes), MOST_BYTES).is_ok()
         })
     },
     Entry {
         seal: seal::cache,
         ..entry("cache", |home, bytes| {
-            drop(cache_file::read(&home.write("room.cache", bytes), MOST_BYTES));
+            cache_file::read(&home.write("room.cache", bytes), MOST_BYTES).is_ok()
         })
     },
 ];
 
 /// A refusal says what is wrong; what is read is a scene or no scene, and that is said, too.
-fn scene(read: Result<Loaded<SceneParts>, Problems>) {
+fn scene(read: Result<Loaded<SceneParts>, Problems>) -> bool {
     match read {
-        Ok(loaded) => drop(Scene::assemble(loaded.value)),
-        Err(Problems(list)) => assert!(!list.is_empty(), "refused without a word"),
+        Ok(loaded) => Scene::assemble(loaded.value).is_ok(),
+        Err(Problems(list)) => {
+            assert!(!list.is_empty(), "refused without a word");
+            false
+        }
     }
 }
 
-fn with_both_meanings(path: &Path) {
-    scene(load_with(path, Materials::AsMeant, Reach::Inside));
-    scene(load_with(path, Materials::AsWritten, Reach::Inside));
+fn with_both_meanings(path: &Path) -> bool {
+    let read = |materials| scene(load_with(path, materials, Reach::Inside));
+    read(Materials::AsMeant) & read(Materials::AsWritten)
 }
 
 /// What is read as light is light, and the other format holds it or says why not.
-fn lamp(path: &Path, bytes: &[u8]) {
+fn lamp(path: &Path, bytes: &[u8]) -> bool {
     let audit = audit(path, bytes, PhotometricFile::parse(bytes, path));
     let Some((file, web)) = &audit.usable else {
         assert!(!audit.findings.is_empty(), "refused without a word");
-        return;
+        return false;
     };
     let flux = web.luminous_flux_lm();
     assert!(flux >= 0.0 && flux.is_finite(), "{flux}");
@@ -115,11 +120,12 @@ fn lamp(path: &Path, bytes: &[u8]) {
         PhotometricFile::Ldt(_) => Target::Ies,
     };
     drop(convert(file, target));
+    true
 }
 
-fn map(home: &Home, bytes: &[u8]) {
+fn map(home: &Home, bytes: &[u8]) -> bool {
     let path = home.write("map.glb", bytes);
     map_glb::is_map(&path);
     map_glb::is_export(&path);
-    drop(map_glb::read_with_texels(&path));
+    map_glb::read_with_texels(&path).is_ok()
 }
