@@ -25,7 +25,7 @@ const LEAST_SHARE: f64 = 1e-4;
 
 /// Tells of one kind of work; the bar goes when this does.
 pub(crate) struct Meter {
-    what: &'static str,
+    what: String,
     shape: Shape,
     /// When it was first told of, which is when the work began.
     started: Option<Instant>,
@@ -42,7 +42,7 @@ enum Shape {
 
 impl Meter {
     /// Of work that has not begun, shown as asked for; otherwise by a bar where there is a terminal.
-    pub(crate) fn new(what: &'static str, asked: Option<Asked>) -> Self {
+    pub(crate) fn new(what: impl Into<String>, asked: Option<Asked>) -> Self {
         let on_terminal = || std::io::stderr().is_terminal() && !notes::are_json();
         let shape = match asked {
             Some(Asked::Json) => Shape::Json,
@@ -51,7 +51,13 @@ impl Meter {
             None if on_terminal() => Shape::Bar(bar(BAR_STEPS)),
             None => Shape::Lines,
         };
-        Self { what, shape, started: None, last_s: None, foresight: Foresight::default() }
+        Self {
+            what: what.into(),
+            shape,
+            started: None,
+            last_s: None,
+            foresight: Foresight::default(),
+        }
     }
 
     /// So much is done; nothing where that cannot be told yet.
@@ -77,11 +83,11 @@ impl Meter {
         match &self.shape {
             Shape::Bar(bar) => {
                 bar.set_position((state.share * BAR_STEPS as f64) as u64);
-                bar.set_message(state.line(self.what));
+                bar.set_message(state.line(&self.what));
             }
-            Shape::Lines => note(Note::Info, state.line(self.what)),
+            Shape::Lines => note(Note::Info, state.line(&self.what)),
             Shape::Json => {
-                let report = Report { stage: self.what, state };
+                let report = Report { stage: &self.what, state };
                 notes::line(serde_json::to_string(&report).unwrap_or_default());
             }
             Shape::Silent => {}
@@ -119,8 +125,8 @@ struct State {
 
 /// A state as a JSON line.
 #[derive(Serialize)]
-struct Report {
-    stage: &'static str,
+struct Report<'a> {
+    stage: &'a str,
     #[serde(flatten)]
     state: State,
 }

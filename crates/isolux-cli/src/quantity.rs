@@ -15,6 +15,15 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A difference of colours, CIE94: from a thousandth, below the steps of any display, to 100, from black to white.
+pub(crate) fn colour_difference(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(difference) if (0.001..=100.0).contains(&difference) => Ok(difference),
+        Ok(_) => Err("must be from 0.001 to 100; just unseen is 0.5".into()),
+        Err(_) => Err("not a number; write 0.5".into()),
+    }
+}
+
 /// A factor on light as `80%` or `0.8`, more than 0 and at most 1. A bare 1 is all of it, not one per cent.
 pub(crate) fn maintenance_factor(text: &str) -> Result<f64, String> {
     match number_or_percent(text) {

@@ -3,6 +3,7 @@
 use crate::error::ViewError;
 use crate::exposure::Exposure;
 use crate::image::{LuminanceImage, Seen};
+use crate::matrix::Matrix3;
 use crate::picture::Picture;
 use crate::profile::MonitorProfile;
 use crate::tone::{Levels, ToneMap, ToneOperator};
@@ -46,19 +47,38 @@ impl Development {
     }
 }
 
+/// A development, worked out for a view.
+pub(crate) struct Shown {
+    white_cd_m2: f64,
+    tone: ToneMap,
+    adaptation: Option<Matrix3>,
+}
+
+impl Shown {
+    pub(crate) fn of(image: &LuminanceImage, how: &Development) -> Result<Self, ViewError> {
+        let white_cd_m2 = how.exposure.white_cd_m2(image)?;
+        let tone = how.tone_map(white_cd_m2)?;
+        Ok(Self { white_cd_m2, tone, adaptation: how.white.matrix(image)? })
+    }
+
+    /// The display-linear colour of a luminance, Rec. 709.
+    pub(crate) fn linear(&self, luminance_cd_m2: Rgb) -> Rgb {
+        let adapted =
+            self.adaptation.map_or(luminance_cd_m2, |matrix| Rgb(matrix.apply(luminance_cd_m2.0)));
+        self.tone.apply(adapted / self.white_cd_m2)
+    }
+}
+
 /// Exposes and tone maps a view. Samples are mapped one by one and averaged as the display emits
 /// them, so that the outlines of luminaires stay smooth. Where there is no surface the picture is black; where the map has
 /// no value it shows what is emitted and mirrored alone: no light is known to reach the place.
 pub fn develop(image: &LuminanceImage, how: &Development) -> Result<Picture, ViewError> {
-    let white_cd_m2 = how.exposure.white_cd_m2(image)?;
-    let tone = how.tone_map(white_cd_m2)?;
-    let adaptation = how.white.matrix(image)?;
-    let adapted = |colour: Rgb| adaptation.map_or(colour, |matrix| Rgb(matrix.apply(colour.0)));
-    let shown = |seen: &Seen| tone.apply(adapted(seen.luminance()) / white_cd_m2);
+    let shown = Shown::of(image, how)?;
     let rgb = (0..image.size().pixels())
         .into_par_iter()
         .map(|pixel| {
-            let sum: Rgb = image.samples(pixel).iter().map(shown).sum();
+            let seen = image.samples(pixel).iter().map(Seen::luminance);
+            let sum: Rgb = seen.map(|luminance| shown.linear(luminance)).sum();
             how.profile.code_from_linear(sum / f64::from(image.samples_per_pixel()))
         })
         .collect();

@@ -31,7 +31,7 @@ const BLOCK: usize = 64;
 const WATCHED: usize = 1024;
 /// Noise of what is gathered, as a share of all light, before it is smoothed; and what elements may be expected to err by, which is seen as
 /// their pattern.
-const ALLOWANCE: Allowance = Allowance { noise: 0.08, interpolation: 0.02 };
+const ALLOWANCE: Allowance = Allowance { noise: 0.08, interpolation: 0.02, number: 0 };
 /// Shadow rays of a place in a pixel across the edge of a shadow. The cells of the pixel share its noise.
 const CELL_RAYS: ShadowRays = ShadowRays { fewest: 8, most: 16 };
 /// Pixels over which the difference that gathering made fades out.
@@ -63,46 +63,62 @@ pub enum ViewProgress {
     Looking(f64),
 }
 
-/// Looks at a scene with the light of its map: direct light evaluated afresh, indirect light as [`MapReader::at`] reads it,
-/// gathered where the map is not to be trusted and interpolated elsewhere, and in what gloss and faint panes show. Both are
-/// evaluated in the middles of few pixels and continued to those about on the same piece of surface: direct light where it
-/// is smooth, indirect light within half of the error of a reading or 2 % of the light (best effort: pieces that no middle
-/// of a pixel nearby shows are interpolated). `watch` is told how far that is.
-pub fn trace_map(
-    (scene, map): (&Scene, &IlluminationMap),
-    view: impl Into<View>,
-    size: Size,
-    (settings, watch): (&TraceSettings, &mut dyn FnMut(ViewProgress)),
-) -> Result<(LuminanceImage, Gathered), ViewError> {
-    let view = view.into();
-    let reader = MapReader::new(scene, map);
-    let middles = Middles::of(scene, size, asked(scene, view, size, settings)?);
-    let direct = DirectField::new(&middles, (&reader, map), |share| {
-        watch(ViewProgress::Lighting(share));
-    });
-    let (light, report) = PixelLight::new((&middles, map), &reader, watch);
-    let read = |at: SurfacePoint| -> Option<Illuminance> {
-        let SurfacePoint { triangle, back, u, v, blurred, .. } = at;
-        let of_map = || map.interpolate(triangle, back, u, v);
-        if blurred {
-            return of_map();
-        }
-        let surface = surface(scene, &at);
-        let indirect = match light.at(&reader, (&at, &surface)) {
-            Light::OfMap => None,
-            Light::Gathered(reading) => Some(reading),
-            Light::Beside(more) => of_map().map(|stored| IndirectReading {
-                lx: (stored.indirect_lx + more).map(|c| c.max(0.0)),
-                error_lx: stored.indirect_standard_error_lx,
-                noise_lx: stored.indirect_standard_error_lx,
-            }),
+/// A map to be looked at.
+pub struct MapViewer<'a> {
+    scene: &'a Scene,
+    map: &'a IlluminationMap,
+    reader: MapReader<'a>,
+}
+
+impl<'a> MapViewer<'a> {
+    /// Prepares the luminaires of the scene of a map.
+    pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
+        Self { scene, map, reader: MapReader::new(scene, map) }
+    }
+
+    /// Looks at a scene with the light of its map: direct light evaluated afresh, indirect light as [`MapReader::at`] reads it,
+    /// gathered where the map is not to be trusted and interpolated elsewhere, and in what gloss and faint panes show. Both are
+    /// evaluated in the middles of few pixels and continued to those about on the same piece of surface: direct light where it
+    /// is smooth, indirect light within half of the error of a reading or 2 % of the light (best effort: pieces that no middle
+    /// of a pixel nearby shows are interpolated). `watch` is told how far that is.
+    pub fn trace(
+        &self,
+        view: impl Into<View>,
+        size: Size,
+        (settings, watch): (&TraceSettings, &mut dyn FnMut(ViewProgress)),
+    ) -> Result<(LuminanceImage, Gathered), ViewError> {
+        let (scene, map, reader) = (self.scene, self.map, &self.reader);
+        let view = view.into();
+        let middles = Middles::of(scene, size, asked(scene, view, size, settings)?);
+        let round = settings.round;
+        let direct = DirectField::new(&middles, (reader, map), round, |share| {
+            watch(ViewProgress::Lighting(share));
+        });
+        let allowance = Allowance { number: round, ..ALLOWANCE };
+        let (light, report) = PixelLight::new((&middles, map), (reader, allowance), watch);
+        let read = |at: SurfacePoint| -> Option<Illuminance> {
+            let SurfacePoint { triangle, back, u, v, blurred, .. } = at;
+            let of_map = || map.interpolate(triangle, back, u, v);
+            if blurred {
+                return of_map();
+            }
+            let surface = surface(scene, &at);
+            let indirect = match light.at(reader, (&at, &surface)) {
+                Light::OfMap => None,
+                Light::Gathered(reading) => Some(reading),
+                Light::Beside(more) => of_map().map(|stored| IndirectReading {
+                    lx: (stored.indirect_lx + more).map(|c| c.max(0.0)),
+                    error_lx: stored.indirect_standard_error_lx,
+                    noise_lx: stored.indirect_standard_error_lx,
+                }),
+            };
+            let known = PictureLight { direct_lx: direct.at((&at, &surface)), indirect };
+            reader.glance(on_side(&at), (round, CELL_RAYS), known)
         };
-        let known = PictureLight { direct_lx: direct.at((&at, &surface)), indirect };
-        reader.glance(on_side(&at), (0, CELL_RAYS), known)
-    };
-    let watch = &mut |share| watch(ViewProgress::Looking(share));
-    let image = trace_watched(scene, view, size, settings, (&read, watch))?;
-    Ok((image, report))
+        let watch = &mut |share| watch(ViewProgress::Looking(share));
+        let image = trace_watched(scene, view, size, settings, (&read, watch))?;
+        Ok((image, report))
+    }
 }
 
 /// A look in the dark: what is to be seen sharply in the middles of pixels, in their order.
@@ -162,7 +178,7 @@ struct PixelLight<'a> {
 impl<'a> PixelLight<'a> {
     fn new(
         (middles, map): (&'a Middles, &IlluminationMap),
-        reader: &MapReader<'_>,
+        (reader, allowance): (&MapReader<'_>, Allowance),
         watch: &mut dyn FnMut(ViewProgress),
     ) -> (Self, Gathered) {
         let entry = |number: usize| Entry::new(reader, middles.place(number));
@@ -176,7 +192,7 @@ impl<'a> PixelLight<'a> {
         let mut net = Net::new(asked, FINENESS, Box::new(sight));
         let mut done = 0.0;
         let gather = |numbers: &[usize], more: f64| -> Result<Vec<_>, Infallible> {
-            let one = |&number: &usize| reader.indirect_at(place(number), ALLOWANCE);
+            let one = |&number: &usize| reader.indirect_at(place(number), allowance);
             let mut found = Vec::with_capacity(numbers.len());
             for some in numbers.chunks(WATCHED) {
                 let left = (numbers.len() - found.len()) as f64 + more;
@@ -248,7 +264,7 @@ impl<'a> PixelLight<'a> {
             // Once to go on, and then along the front: what differs there is noise.
             for _ in 0..=SMOOTHINGS {
                 let found: Vec<Option<Rgb>> =
-                    next.iter().map(|&number| self.mean_about(number, &more)).collect();
+                    next.par_iter().map(|&number| self.mean_about(number, &more)).collect();
                 next.iter().zip(found).for_each(|(&number, found)| more[number] = found);
             }
             let share = 1.0 - f64::from(step) / f64::from(FADE + 1);

@@ -84,6 +84,12 @@ pub struct Reading {
 }
 
 impl Reading {
+    /// The error is mostly that of the map, which all rounds share.
+    fn take_up(&mut self, other: &Self, share: f32) {
+        self.illuminance_lx += share * (other.illuminance_lx - self.illuminance_lx);
+        self.standard_error_lx += share * (other.standard_error_lx - self.standard_error_lx);
+    }
+
     /// The mean of readings of one piece of surface, and its standard error from their spread. The
     /// errors of the map are common to them, so the mean keeps the mean error.
     pub(crate) fn mean(readings: impl Iterator<Item = Self>) -> Option<(Self, f32)> {
@@ -105,6 +111,15 @@ impl Reading {
 }
 
 impl Seen {
+    fn take_up(&mut self, other: &Self, share: f32) {
+        for (own, other) in self.luminance_cd_m2.iter_mut().zip(other.luminance_cd_m2) {
+            *own += share * (other - *own);
+        }
+        if let (Some(own), Some(other)) = (self.reading.as_mut(), &other.reading) {
+            own.take_up(other, share);
+        }
+    }
+
     /// Luminance, cd/m2.
     pub fn luminance(&self) -> Rgb {
         Rgb(self.luminance_cd_m2.map(f64::from))
@@ -181,6 +196,22 @@ impl LuminanceImage {
     /// Width and height.
     pub fn size(&self) -> Size {
         self.size
+    }
+
+    /// Takes up another view of the same, as one of `rounds` in all: what is seen becomes the mean over the rounds.
+    pub(crate) fn take_up(&mut self, other: &Self, rounds: u32) {
+        let share = 1.0 / rounds as f32;
+        let samples = self.samples.iter_mut().zip(&other.samples);
+        samples.for_each(|(own, other)| own.take_up(other, share));
+        for (own, other) in self.middles.iter_mut().zip(&other.middles) {
+            if let (Some(own), Some(other)) = (own.as_mut(), other) {
+                if let (Some(reading), Some(more)) = (own.reading.as_mut(), &other.reading) {
+                    reading.take_up(more, share);
+                }
+                // Independent noise of means with their shares.
+                own.noise_lx = ((1.0 - share) * own.noise_lx).hypot(share * other.noise_lx);
+            }
+        }
     }
 
     /// Samples of each pixel.

@@ -115,7 +115,7 @@ fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     let reader = MapReader::new(&scene, &map);
     let (size, settings) = (Size::new(320, 240).unwrap(), TraceSettings::DRAFT);
     let (view, gathered) =
-        trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap();
+        MapViewer::new(&scene, &map).trace(&camera, size, (&settings, &mut |_| {})).unwrap();
     let read = |at: SurfacePoint| {
         let place = PlaceOnSide { triangle: at.triangle, back: at.back, uv: [at.u, at.v] };
         let rays = ShadowRays { fewest: 4, most: 32 };
@@ -134,8 +134,27 @@ fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     let Gathered { interpolated, gathered, continued } = gathered;
     assert_eq!(interpolated + gathered + continued, size.pixels());
     assert!(continued > 4 * gathered && gathered > 0, "{gathered} and {continued}");
+    // A window of it is the same view, by the random numbers of another round.
+    let viewer = MapViewer::new(&scene, &map);
+    let (left, top) = (96, 64);
+    let window = Some(Window { of: size, left, top });
+    let own = Size::new(128, 96).unwrap();
+    let inside = TraceSettings { window, ..settings };
+    let (part, _) = viewer.trace(&camera, own, (&inside, &mut |_| {})).unwrap();
+    let next = TraceSettings { round: 1, ..inside };
+    let (other, _) = viewer.trace(&camera, own, (&next, &mut |_| {})).unwrap();
+    assert!(part != other);
+    for y in 0..own.height() {
+        for x in 0..own.width() {
+            let pixel = ((top + y) * size.width() + left + x) as usize;
+            let within = (y * own.width() + x) as usize;
+            assert_eq!(part.surface(within), view.surface(pixel));
+            assert_eq!(other.surface(within), view.surface(pixel));
+        }
+    }
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let again = || trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap().0;
+    let again =
+        || MapViewer::new(&scene, &map).trace(&camera, size, (&settings, &mut |_| {})).unwrap().0;
     assert!(alone.install(again) == view, "the same on any number of threads");
 }
 
@@ -150,7 +169,8 @@ fn a_gap_in_the_middle_of_a_pixel_does_not_darken_what_the_pixel_shows_before_it
     let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
     let reader = MapReader::new(&scene, &map);
     let (size, settings) = (Size::new(128, 48).unwrap(), TraceSettings::FINE);
-    let (view, _) = trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap();
+    let (view, _) =
+        MapViewer::new(&scene, &map).trace(&camera, size, (&settings, &mut |_| {})).unwrap();
     let few = ExactSettings { rays: 16, replicates: 4, ..ExactSettings::default() };
     let read = |at: SurfacePoint| {
         let front = scene.geometric_normal(at.triangle);
@@ -206,7 +226,8 @@ fn direct_off(scene: &Scene, camera: &Camera) -> [f64; 2] {
         reader.glance(place, (1, many), PictureLight::default())
     };
     let truth = trace(scene, camera, size, &settings, &read).unwrap();
-    let (view, _) = trace_map((scene, &map), camera, size, (&settings, &mut |_| {})).unwrap();
+    let (view, _) =
+        MapViewer::new(scene, &map).trace(camera, size, (&settings, &mut |_| {})).unwrap();
     let is_floor =
         |pixel: usize| truth.surface(pixel).is_some_and(|surface| surface.position.z.abs() < 1e-9);
     // A pixel whose middle and most cells show the floor.

@@ -75,6 +75,11 @@ pub(crate) struct RenderFlags {
     /// effort) [default: 1%]
     #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
     pub accuracy: Option<f64>,
+    /// The noise that the picture may have: the mean difference of colours from those without noise, CIE94 (1 is just seen where
+    /// two areas meet). The picture is written when it is complete, and again as it gets better [default: 0.5]
+    #[arg(long, value_name = "CIE94", value_parser = quantity::colour_difference, allow_hyphen_values = true,
+          conflicts_with_all = ["interpolated", "cache"])]
+    pub picture_accuracy: Option<f64>,
     #[command(flatten)]
     pub look: LookFlags,
 }

@@ -1,5 +1,6 @@
 //! Where the light of views comes from: a map, a scene that is solved first, or a cache of samples.
 
+use super::refined::{self, NoiseReport, Show, Wish};
 use crate::appearance::ExposureChoice;
 use crate::cached_view::{self, CacheUse};
 use crate::failure::{Failure, Outcome};
@@ -7,14 +8,14 @@ use crate::flags::RenderFlags;
 use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use crate::quantity::show_share;
-use crate::traced::{bare, view};
+use crate::traced::{Watched, bare};
 use crate::viewpoint::{self, NamedView};
 use crate::{map_file, solving, source, walk};
 use isolux::elements::carries_map;
 use isolux::engine::SolveRequest;
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
-use isolux_view::{Gathered, LuminanceImage, View};
+use isolux_view::{Gathered, LuminanceImage, Size, View};
 use std::path::{Path, PathBuf};
 
 /// The error that a scene is solved to for a view.
@@ -51,6 +52,9 @@ pub(super) struct Seen {
     pub(super) view: LuminanceImage,
     pub(super) gathered: Option<Gathered>,
     pub(super) cache: Option<CacheUse>,
+    pub(super) noise: Option<NoiseReport>,
+    /// Whether the user stopped it before it was as good as wished.
+    pub(super) interrupted: bool,
 }
 
 impl Opened {
@@ -118,14 +122,20 @@ impl Lit {
         viewpoint::own(&self.scene, &flags.eye, &is_lit)
     }
 
-    /// Looks; nothing if the user stops that.
-    pub(super) fn see(&self, from: View, size: (u32, u32)) -> Result<Option<Seen>, Failure> {
+    /// Looks; nothing if the user stops that. Pictures that will get better are shown meanwhile.
+    pub(super) fn see(
+        &self,
+        from: View,
+        size: (u32, u32),
+        (wish, show): (&Wish<'_>, &mut Show<'_>),
+    ) -> Result<Option<Seen>, Failure> {
         let scene = &self.scene;
-        let plain = |view| Seen { view, gathered: None, cache: None };
+        let plain =
+            |view| Seen { view, gathered: None, cache: None, noise: None, interrupted: false };
         match &self.light {
             Light::Map(map) => {
-                let (view, found) = view(scene, map, from, size)?;
-                Ok(Some(Seen { gathered: Some(found), ..plain(view) }))
+                let size = Size::new(size.0, size.1).map_err(Failure::bad_input)?;
+                refined::look(&Watched::new(scene, map), (from, size), wish, show).map(Some)
             }
             Light::Bare(map) => Ok(Some(plain(bare(scene, map, from, size)?))),
             Light::Cache { path, accuracy } => {

@@ -2,6 +2,7 @@
 
 mod light;
 mod outputs;
+mod refined;
 mod report;
 
 use crate::console::{print, print_json};
@@ -16,7 +17,11 @@ use isolux_formats::luminance::{Luminances, encode_exr, encode_radiance};
 use isolux_view::{LuminanceImage, Picture};
 use light::{Opened, Seen};
 use outputs::{Kind, Output, Wanted};
+use refined::Wish;
 use report::{Indirect, Report, ViewReport};
+
+/// The mean noise, CIE94, that a picture may have unless another is asked for.
+const JUST_UNSEEN: f64 = 0.5;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
@@ -33,22 +38,38 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     let Some(lit) = opened.lit(flags)? else { return Ok(Outcome::Interrupted) };
     let look = look.of_scene(&lit.scene, lit.map());
     let views = asked.unwrap_or_else(|| vec![lit.own_view(flags)]);
-    let (mut drawn, mut problems) = (Vec::new(), Vec::new());
+    let (mut drawn, mut problems, mut is_interrupted) = (Vec::new(), Vec::new(), false);
     for (named, outputs) in views.iter().zip(outputs) {
         let size = fitted(flags.size, named.view.projection.aspect());
-        let Some(seen) = lit.see(named.view, size)? else { return Ok(Outcome::Interrupted) };
+        let wish =
+            Wish { goal: flags.picture_accuracy.unwrap_or(JUST_UNSEEN), how: look.development() };
+        // One in which nothing is lit is refused in the end.
+        let show = &mut |view: &LuminanceImage| {
+            let is_worth = exposed::check(view, &named.name, charts_alone(&outputs)).is_ok();
+            if is_worth { write_all(view, (&look, &outputs)).map(|_| ()) } else { Ok(()) }
+        };
+        let seen = lit.see(named.view, size, (&wish, show))?;
+        let Some(seen) = seen else { return Ok(Outcome::Interrupted) };
+        is_interrupted |= seen.interrupted;
         match draw(named, seen, (&look, &outputs)) {
             Ok(view) => drawn.push(view),
             // The other cameras may see something.
             Err(Failure::BadInput(lines)) => problems.extend(lines),
             Err(other) => return Err(other),
         }
+        if is_interrupted {
+            break;
+        }
     }
     if drawn.is_empty() {
         return Err(Failure::BadInput(problems));
     }
     problems.iter().for_each(|problem| note(Note::Error, &problem.message));
-    let outcome = if problems.is_empty() { Outcome::Done } else { Outcome::Unusable };
+    let outcome = match () {
+        () if is_interrupted => Outcome::Interrupted,
+        () if problems.is_empty() => Outcome::Done,
+        () => Outcome::Unusable,
+    };
     let report = Report::of(drawn, problems);
     if json {
         print_json(&report)?
@@ -58,35 +79,19 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     Ok(outcome)
 }
 
-/// Writes the files of a view.
+/// Writes the files of a view, and tells of it.
 fn draw(
     named: &NamedView,
     seen: Seen,
     (look, outputs): (&Look, &[Output]),
 ) -> Result<ViewReport, Failure> {
-    let Seen { view, gathered, cache } = seen;
-    let charts_alone = outputs.iter().all(|output| output.kind == Kind::Chart);
-    exposed::check(&view, &named.name, charts_alone)?;
-    let (mut size, mut is_warned) = (None, false);
-    for Output { path, kind } in outputs {
-        match kind {
-            Kind::Picture => {
-                let picture = look.picture(&view)?;
-                write(path, &picture)?;
-                if !std::mem::replace(&mut is_warned, true) {
-                    exposed::warn(&view, &picture, look.development());
-                }
-                size.get_or_insert((picture.width, picture.height));
-            }
-            Kind::Chart => {
-                let picture = look.chart(&view)?;
-                write(path, &picture)?;
-                size.get_or_insert((picture.width, picture.height));
-            }
-            Kind::Exr | Kind::Hdr => write_luminance(path, *kind, &view)?,
-        }
+    let Seen { view, gathered, cache, noise, .. } = seen;
+    exposed::check(&view, &named.name, charts_alone(outputs))?;
+    let drawn = write_all(&view, (look, outputs))?;
+    if let Some(picture) = &drawn.picture {
+        exposed::warn(&view, picture, look.development());
     }
-    let (width, height) = size.unwrap_or((view.size().width(), view.size().height()));
+    let (width, height) = drawn.size.unwrap_or((view.size().width(), view.size().height()));
     let is_picture = outputs.iter().any(|output| output.kind == Kind::Picture);
     let files = report::files(outputs);
     Ok(ViewReport {
@@ -98,7 +103,43 @@ fn draw(
         profile: look.profile(is_picture).to_owned(),
         indirect: gathered.map(Indirect::of),
         cache,
+        noise,
     })
+}
+
+fn charts_alone(outputs: &[Output]) -> bool {
+    outputs.iter().all(|output| output.kind == Kind::Chart)
+}
+
+/// What has been written of a view.
+#[derive(Default)]
+struct Drawn {
+    /// The first picture that is no chart.
+    picture: Option<Picture>,
+    /// The size of the first picture or chart.
+    size: Option<(u32, u32)>,
+}
+
+/// Writes the files of a view.
+fn write_all(view: &LuminanceImage, (look, outputs): (&Look, &[Output])) -> Result<Drawn, Failure> {
+    let mut drawn = Drawn::default();
+    for Output { path, kind } in outputs {
+        match kind {
+            Kind::Picture => {
+                let picture = look.picture(view)?;
+                write(path, &picture)?;
+                drawn.size.get_or_insert((picture.width, picture.height));
+                drawn.picture.get_or_insert(picture);
+            }
+            Kind::Chart => {
+                let picture = look.chart(view)?;
+                write(path, &picture)?;
+                drawn.size.get_or_insert((picture.width, picture.height));
+            }
+            Kind::Exr | Kind::Hdr => write_luminance(path, *kind, view)?,
+        }
+    }
+    Ok(drawn)
 }
 
 /// The largest size of this aspect within another one.

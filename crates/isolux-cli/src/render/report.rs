@@ -1,6 +1,7 @@
 //! What `render` tells of the views it has drawn.
 
 use super::outputs::Output;
+use super::refined::NoiseReport;
 use crate::cached_view::CacheUse;
 use crate::console::facts;
 use crate::quantity::show_share;
@@ -37,6 +38,8 @@ pub(super) struct ViewReport {
     pub(super) indirect: Option<Indirect>,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub(super) cache: Option<CacheUse>,
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub(super) noise: Option<NoiseReport>,
 }
 
 /// Where the indirect light of a view from a map comes from, by places of surfaces.
@@ -83,6 +86,7 @@ impl ViewReport {
             ("profile", name(&self.profile)),
         ];
         lines.extend(self.indirect.iter().map(Indirect::fact));
+        lines.extend(self.noise.iter().map(NoiseReport::fact));
         lines.extend(self.cache.iter().flat_map(CacheUse::facts));
         facts(&lines)
     }

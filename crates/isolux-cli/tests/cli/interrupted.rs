@@ -198,6 +198,27 @@ fn an_interrupted_view_keeps_the_samples_that_are_whole() {
 }
 
 #[test]
+fn an_interrupted_picture_is_the_mean_of_its_rounds() {
+    let home = Home::new();
+    let ran = home.run(&["solve", "builtin:cube", "-o", "m.glb", "--quality", "draft"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let view = ["render", "m.glb", "-o", "v.png", "--size", "64x48", "--picture-accuracy", "0.001"];
+    let mut child = home.start(&view);
+    // It listens before it writes the picture that will get better.
+    while !home.path("v.png").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before there was a picture");
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    let mut told = String::new();
+    std::io::Read::read_to_string(&mut child.stdout.take().unwrap(), &mut told).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{told}");
+    assert!(told.contains("CIE94 in the mean (goal 0.0010)"), "{told}");
+    assert!(home.path("v.png").exists());
+}
+
+#[test]
 fn an_interrupted_validation_tells_what_is_done() {
     let home = Home::new();
     let mut child = home.start(&["validate", "--case", "cube", "--seeds", "50"]);

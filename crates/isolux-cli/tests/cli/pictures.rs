@@ -64,6 +64,29 @@ fn flags_of_a_picture_change_it() {
 }
 
 #[test]
+fn rounds_are_added_until_the_noise_is_as_asked_for() {
+    let home = solved();
+    let render = ["render", "m.glb", "-o", "v.png", "--size", "64x48", "--json"];
+    let looked = |flags: &[&str]| home.run(&[&render[..], flags].concat());
+    let usual = looked(&[]).json();
+    let [noise, goal] = ["noise_cie94", "noise_goal_cie94"].map(|key| usual[key].as_f64().unwrap());
+    assert!(goal == 0.5 && noise > 0.0 && noise <= goal, "{usual}");
+    assert_eq!(usual["rounds"], 2, "as few as can be compared");
+    let half = (0.4 * noise).to_string();
+    let less = looked(&["--picture-accuracy", &half]).json();
+    assert!(less["noise_cie94"].as_f64().unwrap() <= 0.4 * noise, "{less} and {usual}");
+    assert!(less["rounds"].as_u64().unwrap() > 6, "{less} and {usual}");
+    for (wrong, message) in
+        [("0", "from 0.001 to 100"), ("NaN", "from 0.001"), ("1%", "not a number")]
+    {
+        let ran = looked(&["--picture-accuracy", wrong]);
+        assert!(ran.code == 2 && ran.err.contains(message), "{wrong}: {ran:?}");
+    }
+    let ran = looked(&["--picture-accuracy", "1", "--interpolated"]);
+    assert!(ran.code == 2 && ran.err.contains("cannot be used with"), "{ran:?}");
+}
+
+#[test]
 fn what_does_not_go_together_is_refused() {
     let home = solved();
     home.file("text.icc", "no profile");

@@ -57,10 +57,11 @@ struct Builder<'a> {
 }
 
 impl<'a> DirectField<'a> {
-    /// Evaluates the direct light of a view; `watch` is told the share that is done.
+    /// Evaluates the direct light of a view by the random numbers of a round; `watch` is told the share that is done.
     pub(crate) fn new(
         middles: &'a Middles,
         (reader, map): (&MapReader<'_>, &IlluminationMap),
+        round: u64,
         mut watch: impl FnMut(f64),
     ) -> Self {
         let evaluate = |number: usize, rays: ShadowRays| {
@@ -68,7 +69,7 @@ impl<'a> DirectField<'a> {
             let Some(stored) = map.interpolate(at.triangle, at.back, at.u, at.v) else {
                 return Node::DARK;
             };
-            let (lx, noise_lx) = reader.direct_for_picture(on_side(at), 0, rays);
+            let (lx, noise_lx) = reader.direct_for_picture(on_side(at), round, rays);
             let about_lx = (stored.indirect_lx + stored.caustic_lx).luminance() + lx.luminance();
             Node { lx, noise_lx, about_lx }
         };

@@ -7,7 +7,7 @@ mod look;
 mod pixel;
 mod settings;
 
-pub use settings::{SurfacePoint, TraceSettings};
+pub use settings::{SurfacePoint, TraceSettings, Window};
 
 use crate::camera::{View, ViewRays};
 use crate::error::ViewError;
@@ -56,7 +56,9 @@ pub fn trace_watched(
     let lamps = Lamps::of(scene);
     let lamps = lamps.as_ref();
     let looker = Looker { scene, settings, highlights: highlights.as_ref(), lamps, read };
-    let pixels = Pixels { looker, rays: ViewRays::new(view, size), size, per_side };
+    let (of, before) =
+        settings.window.map_or((size, [0; 2]), |within| (within.of, [within.left, within.top]));
+    let pixels = Pixels { looker, rays: ViewRays::new(view, of), size, before, per_side };
     let count = (per_side * per_side) as usize;
     let mut samples = vec![Look::NOTHING.seen(); size.pixels() * count];
     let mut middles = vec![None; size.pixels()];

@@ -14,6 +14,8 @@ pub(super) struct Pixels<'a> {
     pub(super) looker: Looker<'a>,
     pub(super) rays: ViewRays,
     pub(super) size: Size,
+    /// Columns and rows of the whole picture before the first of these.
+    pub(super) before: [u32; 2],
     /// Cells along the side of a pixel.
     pub(super) per_side: u32,
 }
@@ -110,14 +112,15 @@ impl Pixels<'_> {
         let side = f64::from(self.per_side);
         let [column, row] = [cell % self.per_side, cell / self.per_side].map(f64::from);
         let within = |own: f64, other: f64| (own + (other + 0.5) / side) / side;
-        let x = left as f64 + within(column, row);
-        let y = top as f64 + within(row, column);
+        let [before_left, above] = self.before.map(f64::from);
+        let x = before_left + left as f64 + within(column, row);
+        let y = above + top as f64 + within(row, column);
         let ray = self.rays.through(x, y);
         ray.map_or(Meeting::NOTHING, |(ray, direction)| self.looker.meet(&ray, direction))
     }
 
     fn key(&self, pixel: usize, cell: u32) -> Key {
-        Key::new(self.looker.settings.seed).with(pixel as u64).with(u64::from(cell))
+        Key::new(self.looker.settings.round + 1).with(pixel as u64).with(u64::from(cell))
     }
 
     fn diagonal(&self) -> impl Iterator<Item = u32> + use<> {

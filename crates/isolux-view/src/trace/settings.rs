@@ -1,6 +1,6 @@
 //! What a view is asked for.
 
-use crate::image::{MAX_PIXELS, MAX_SAMPLES};
+use crate::image::{MAX_PIXELS, MAX_SAMPLES, Size};
 
 /// A place of a triangle of a scene, on one side: barycentric weights `(1 - u - v, u, v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,8 +37,21 @@ pub struct TraceSettings {
     /// Whether the camera looks through the black backs of one-sided materials, into a room from
     /// outside. Reflections never do.
     pub through_black_backs: bool,
-    /// Seed of the places of samples.
-    pub seed: u64,
+    /// Number of the random numbers: views with different numbers have independent noise.
+    pub round: u64,
+    /// The part of a picture that the view is; `None` for all of it.
+    pub window: Option<Window>,
+}
+
+/// A part of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// The size of the whole picture.
+    pub of: Size,
+    /// Pixels from its left edge.
+    pub left: u32,
+    /// Pixels from its upper edge.
+    pub top: u32,
 }
 
 impl TraceSettings {
@@ -57,7 +70,8 @@ impl TraceSettings {
         gloss_samples: 9,
         highlights: true,
         through_black_backs: false,
-        seed: 1,
+        round: 0,
+        window: None,
     };
 }
 

@@ -172,7 +172,7 @@ impl<'a> MapReader<'a> {
             let trial = Gatherer::on_surface(at, TRIAL_RAYS).in_gap(in_gap);
             match allowance.noise {
                 f64::INFINITY => self.gathered(stored, trial, fresh.lookup_lx),
-                noise => self.gathered_for_picture(stored, (trial, noise), fresh.lookup_lx),
+                _ => self.gathered_for_picture(stored, (trial, allowance), fresh.lookup_lx),
             }
         };
         Some((indirect, at))

@@ -1,7 +1,7 @@
 //! Readings for pictures, which show few per cent of light only.
 
 use super::state::{Gathered, times_rays};
-use super::{IndirectReading, MapReader};
+use super::{Allowance, IndirectReading, MapReader};
 use crate::elements::PlaceOnSide;
 use crate::engine::gather::Gatherer;
 use crate::engine::light::{Measured, ShadowRays};
@@ -63,12 +63,12 @@ impl MapReader<'_> {
         })
     }
 
-    /// Indirect light gathered over the map, until its noise is about the share `noise` of all light. (A
+    /// Indirect light gathered over the map, until its noise is about the allowed share of all light. (A
     /// picture stops at a small variance; its bias by that is small beside the noise.)
     pub(super) fn gathered_for_picture(
         &self,
         stored: Illuminance,
-        (trial, noise): (Gatherer, f64),
+        (trial, allowance): (Gatherer, Allowance),
         lookup_lx: f64,
     ) -> Illuminance {
         let key = self.gathering_key(&trial);
@@ -77,11 +77,11 @@ impl MapReader<'_> {
             self.gather(trial.with_rays(rays), self.direct_at_ends(), (REPLICATES, key))
         };
         let [fewest, most] = RAYS;
-        let first = gather(fewest, key.with(0));
-        let goal = noise * (stored.direct_lx + first.lx).luminance();
+        let first = gather(fewest, key.with(2 * allowance.number));
+        let goal = allowance.noise * (stored.direct_lx + first.lx).luminance();
         let more = times_rays(first.variance, goal).min(f64::from(most / fewest));
         let Gathered { lx, variance, close, common_lx } = match more > 1.0 {
-            true => gather((f64::from(fewest) * more) as u32, key.with(1)),
+            true => gather((f64::from(fewest) * more) as u32, key.with(2 * allowance.number + 1)),
             false => first,
         };
         Illuminance {

@@ -13,11 +13,14 @@ pub struct Allowance {
     /// The expected interpolation error, in place of that of readings. Where it is larger, light is gathered.
     /// Infinite: that of readings.
     pub interpolation: f64,
+    /// A number that tells readings of one place apart, where [`Self::noise`] is finite: those with different numbers have
+    /// independent noise.
+    pub number: u64,
 }
 
 impl Allowance {
     /// The errors that the map itself allows.
-    pub const ANY: Self = Self { noise: f64::INFINITY, interpolation: f64::INFINITY };
+    pub const ANY: Self = Self { noise: f64::INFINITY, interpolation: f64::INFINITY, number: 0 };
 
     /// The expected interpolation error up to which a value of the map is trusted, lx.
     pub(super) fn trusted_lx(&self, fresh: Fresh, stored: &Illuminance) -> f64 {
