@@ -1,6 +1,6 @@
 //! Where the light of views comes from: a map, a scene that is solved first, or a cache of samples.
 
-use super::refined::{self, NoiseReport, Show, Wish};
+use super::refined::{self, NoiseReport, Refined, Show, Wish};
 use crate::appearance::ExposureChoice;
 use crate::cached_view::{self, CacheUse};
 use crate::failure::{Failure, Outcome};
@@ -135,7 +135,11 @@ impl Lit {
         match &self.light {
             Light::Map(map) => {
                 let size = Size::new(size.0, size.1).map_err(Failure::bad_input)?;
-                refined::look(&Watched::new(scene, map), (from, size), wish, show).map(Some)
+                let watched = Watched::new(scene, map);
+                let refined = refined::look(&watched, (from, size), wish, show)?;
+                let Refined { view, gathered, noise, interrupted } = refined;
+                let (gathered, noise) = (Some(gathered), Some(noise));
+                Ok(Some(Seen { gathered, noise, interrupted, ..plain(view) }))
             }
             Light::Bare(map) => Ok(Some(plain(bare(scene, map, from, size)?))),
             Light::Cache { path, accuracy } => {

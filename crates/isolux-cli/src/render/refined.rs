@@ -1,11 +1,12 @@
 //! Views in rounds: as many as bring the noise of a picture below what is asked for.
 
-use super::light::Seen;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::quantity::significant;
 use crate::traced::{RoundsState, Watched};
-use isolux_view::{Development, LuminanceImage, Noise, Rounds, Size, View, judged_windows};
+use isolux_view::{
+    Development, Gathered, LuminanceImage, Noise, Rounds, Size, View, judged_windows,
+};
 use serde::Serialize;
 
 /// What is done with a picture that will get better.
@@ -43,6 +44,16 @@ impl NoiseReport {
     }
 }
 
+/// The mean of the rounds.
+pub(super) struct Refined {
+    pub(super) view: LuminanceImage,
+    /// Where the indirect light of the first round comes from.
+    pub(super) gathered: Gathered,
+    pub(super) noise: NoiseReport,
+    /// Whether the user stopped it before it was as good as wished.
+    pub(super) interrupted: bool,
+}
+
 /// Looks until the noise is as wished, or the user stops it. Each picture but the last is shown when it is twice as good in rounds as
 /// the one before.
 pub(super) fn look(
@@ -50,7 +61,7 @@ pub(super) fn look(
     (from, size): (View, Size),
     wish: &Wish<'_>,
     show: &mut Show<'_>,
-) -> Result<Seen, Failure> {
+) -> Result<Refined, Failure> {
     let (first, gathered) = watched.round((from, size), 0, None)?;
     let mut rounds = Rounds::new(first);
     let mut noise = noise_of_first(watched, (from, size), &mut rounds, wish.how)?;
@@ -80,8 +91,7 @@ pub(super) fn look(
         noise_goal_cie94: wish.goal,
         rounds: rounds.count(),
     };
-    let view = rounds.into_mean();
-    Ok(Seen { view, gathered: Some(gathered), cache: None, noise: Some(report), interrupted })
+    Ok(Refined { view: rounds.into_mean(), gathered, noise: report, interrupted })
 }
 
 /// The noise of the first round: by windows, or where the picture is small by a second round.
