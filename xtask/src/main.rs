@@ -24,14 +24,15 @@ use std::path::Path;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-cargo xtask test    everything that must hold before a change lands
+cargo xtask test    everything that must hold before a change lands; with --all also what must hold before a release:
+                    comparison of all systems, more judges of pictures, golden maps, validation
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask page    of it, the tests of the walk-through's page, and whether its built file is that of its sources
 cargo xtask walk    of it, the walk-through in Chromium, beside what the command says of the same maps
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
-cargo xtask compared      of it, all systems by error against time, as short as it can be
+cargo xtask compared      of --all, all systems by error against time, as short as it can be
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
 cargo xtask sbom          what is linked into the command, as CycloneDX
@@ -53,7 +54,8 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let root = workspace_root();
     let outcome = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["test"] => test::run(root),
+        ["test"] => test::run(root, false),
+        ["test", "--all"] => test::run(root, true),
         ["tidy"] => tidy::run(root),
         ["smoke"] => test::smoke_and_judge(root),
         ["page"] => page::run(root),

@@ -1,62 +1,108 @@
 //! Everything that must hold before a change lands, in one command.
 
-use crate::{colours, compared, grids, judge, lamps, page, peers, smoke, tidy, walk, worlds};
+use crate::smoke::isolux;
+use crate::{
+    colours, compared, golden, grids, judge, lamps, page, peers, smoke, tidy, walk, worlds,
+};
 use std::path::Path;
 use std::process::Command;
+use std::time::Instant;
 
 const CARGO_STEPS: [&[&str]; 2] = [
     &["fmt", "--all", "--check"],
     &["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"],
 ];
 
-/// Runs all of it; the error names the first step that failed.
-pub(crate) fn run(root: &Path) -> Result<String, String> {
+/// What every change must pass.
+const EVERY_CHANGE: [Step; 8] = [
+    ("tidy", tidy::run),
+    ("cargo test --workspace", |root| cargo(root, &["test", "--workspace"])),
+    (
+        "the command line as a user runs it, and its map before the glTF validator and three.js",
+        smoke,
+    ),
+    ("page of the walk-through", page::run),
+    ("outside judge of the walk-through: Chromium", walk::run),
+    ("outside judges of photometric files: ies2rad, photompy", lamps::run),
+    ("outside judge of differences of colours: colour-science", colours::run),
+    ("scripts of the bench of peers", peers::check),
+];
+
+/// What takes longer or changes less, and must hold before a release.
+const ALL: [Step; 4] = [
+    ("comparison of all systems, as short as it can be", compared::run),
+    (
+        "outside judges of pictures and grids: view3dscene, X_ITE, three.js, VTK, PyVista",
+        worlds_and_grids,
+    ),
+    ("golden maps", |root| golden::run(root, &[])),
+    ("validation against exact values", validate),
+];
+
+/// What is done, and how.
+type Step = (&'static str, fn(&Path) -> Result<String, String>);
+
+/// Runs what every change must pass, and with `all` the rest; the error names the first step that failed.
+pub(crate) fn run(root: &Path, all: bool) -> Result<String, String> {
     for step in CARGO_STEPS {
-        cargo(root, step)?;
+        timed((&format!("cargo {}", step.join(" ")), || cargo(root, step)))?;
     }
-    announce("tidy");
-    println!("{}", tidy::run(root)?);
-    cargo(root, &["test", "--workspace"])?;
-    println!("{}", smoke_and_judge(root)?);
-    announce("page of the walk-through");
-    println!("{}", page::run(root)?);
-    announce("outside judge of the walk-through: Chromium");
-    println!("{}", walk::run(root)?);
-    announce("comparison of all systems, as short as it can be");
-    println!("{}", compared::run(root)?);
-    announce("outside judges of photometric files: ies2rad, photompy");
-    println!("{}", lamps::run(root)?);
-    announce("outside judge of differences of colours: colour-science");
-    println!("{}", colours::run(root)?);
-    announce("scripts of the bench of peers");
-    println!("{}", peers::check(root)?);
+    for (name, step) in EVERY_CHANGE {
+        timed((name, || step(root)))?;
+    }
+    if all {
+        for (name, step) in ALL {
+            timed((name, || step(root)))?;
+        }
+    }
     Ok("all fine".to_owned())
 }
 
-/// Runs the command line as a user does, and shows its map to judges outside the workspace.
+/// Runs the command line as a user does, and shows its map to judges outside of the workspace.
+fn smoke(root: &Path) -> Result<String, String> {
+    judge::run(root, &smoke::run(root)?)
+}
+
+/// Runs the command line as a user does, and shows all that it made to judges outside of the workspace.
 pub(crate) fn smoke_and_judge(root: &Path) -> Result<String, String> {
-    announce("smoke test of the command line");
     let made = smoke::run(root)?;
-    announce("outside judges of the map: glTF validator, three.js");
-    println!("{}", judge::run(root, &made)?);
-    announce("outside judges of pictures: view3dscene, X_ITE, three.js");
-    println!("{}", worlds::run(root, &made.room)?);
-    announce("outside judges of grids: VTK, PyVista");
-    grids::run(root, &made.room)
+    let judged = judge::run(root, &made)?;
+    let worlds = worlds::run(root, &made.room)?;
+    Ok([judged, worlds, grids::run(root, &made.room)?].join("\n"))
 }
 
-fn announce(step: &str) {
-    println!("== {step}");
+/// Shows what the command line made to other judges of pictures and grids.
+fn worlds_and_grids(root: &Path) -> Result<String, String> {
+    let made = smoke::run(root)?;
+    let worlds = worlds::run(root, &made.room)?;
+    Ok([worlds, grids::run(root, &made.room)?].join("\n"))
 }
 
-fn cargo(root: &Path, arguments: &[&str]) -> Result<(), String> {
-    let line = format!("cargo {}", arguments.join(" "));
-    announce(&line);
+/// Every method against the exact values of its cases.
+fn validate(root: &Path) -> Result<String, String> {
+    isolux(root, &["validate"]).map(|_| "all methods pass".to_owned())
+}
+
+/// Announces a step, runs it, and says what came of it and how long it took.
+fn timed<F: FnOnce() -> Result<String, String>>((name, step): (&str, F)) -> Result<(), String> {
+    println!("== {name}");
+    let started = Instant::now();
+    let said = step()?;
+    let seconds = started.elapsed().as_secs_f64();
+    if !said.is_empty() {
+        println!("{said}");
+    }
+    println!("-- {seconds:.0} s: {name}");
+    Ok(())
+}
+
+fn cargo(root: &Path, arguments: &[&str]) -> Result<String, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo).args(arguments).current_dir(root).status();
+    let line = arguments.join(" ");
     match status {
-        Ok(status) if status.success() => Ok(()),
-        Ok(_) => Err(format!("failed: {line}")),
-        Err(e) => Err(format!("cannot run {line}: {e}")),
+        Ok(status) if status.success() => Ok(String::new()),
+        Ok(_) => Err(format!("failed: cargo {line}")),
+        Err(e) => Err(format!("cannot run cargo {line}: {e}")),
     }
 }
