@@ -12,6 +12,7 @@ mod judge;
 mod lamps;
 mod page;
 mod peers;
+mod sanitize;
 mod sbom;
 mod smoke;
 mod test;
@@ -35,6 +36,7 @@ cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask compared      of --all, all systems by error against time, as short as it can be
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
+cargo xtask sanitize      of --all, the ray kernel under the address sanitizer
 cargo xtask sbom          what is linked into the command, as CycloneDX
 cargo xtask consumers     light in Blender, Godot and Bevy, by hand
 cargo xtask bench setup   download Embree 4.4 into target/embree, and Radiance, Mitsuba and LuxCore into target/peers
@@ -64,6 +66,7 @@ fn main() -> ExitCode {
         ["golden", ref arguments @ ..] => golden::run(root, arguments),
         ["colours"] => colours::run(root),
         ["compared"] => compared::run(root),
+        ["sanitize"] => sanitize::run(root),
         ["sbom"] => sbom::run(root),
         ["consumers"] => consumers::run(root),
         ["bench", "setup"] => bench::setup(root).and_then(|embree| peers::setup(root, &embree)),

@@ -2,7 +2,8 @@
 
 use crate::smoke::isolux;
 use crate::{
-    colours, compared, golden, grids, judge, lamps, page, peers, smoke, tidy, walk, worlds,
+    colours, compared, golden, grids, judge, lamps, page, peers, sanitize, smoke, tidy, walk,
+    worlds,
 };
 use std::path::Path;
 use std::process::Command;
@@ -29,7 +30,8 @@ const EVERY_CHANGE: [Step; 8] = [
 ];
 
 /// What takes longer or changes less, and must hold before a release.
-const ALL: [Step; 4] = [
+const ALL: [Step; 5] = [
+    ("the ray kernel under the address sanitizer", sanitize::run),
     ("comparison of all systems, as short as it can be", compared::run),
     (
         "outside judges of pictures and grids: view3dscene, X_ITE, three.js, VTK, PyVista",
