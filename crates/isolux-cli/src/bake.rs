@@ -10,7 +10,7 @@ use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::report::Report;
 use crate::solving::{Run, solve};
-use crate::{map_file, source};
+use crate::{map_file, memory, source};
 use isolux::engine::SolveRequest;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -44,7 +44,7 @@ pub(crate) fn run(flags: &BakeFlags, json: bool) -> Result<Outcome, Failure> {
         accuracy: Some(flags.accuracy),
         seed: flags.seed,
         time_limit: flags.time_limit,
-        max_memory_bytes: flags.max_memory,
+        max_memory_bytes: memory::of_map(),
         ..SolveRequest::default()
     };
     let run = Run { source: &flags.scene, output: &map, request: &request };
@@ -100,7 +100,6 @@ fn export_of(flags: &BakeFlags, map: PathBuf) -> ExportFlags {
         beside: None,
         finer: Duration::ZERO,
         white: None,
-        max_memory: flags.max_memory,
         threads: flags.threads,
     }
 }

@@ -9,8 +9,6 @@ use std::time::Duration;
 
 /// Elements, sums and gathered rays of a receiver: 2900 in the demo interior.
 const BYTES_A_RECEIVER: u64 = 2900;
-/// Mesh and hierarchy of a triangle: 3 vertices, normals, texture coordinates, and its nodes.
-const BYTES_A_TRIANGLE: u64 = 400;
 /// How long a pilot may look, its first survey aside, before it is asked what it has seen.
 const PATIENCE: Duration = Duration::from_secs(1);
 
@@ -33,11 +31,10 @@ pub(crate) struct Estimate {
 impl Estimate {
     /// From the beginning of the run itself.
     pub(crate) fn of(scene: &Scene, request: &SolveRequest) -> Result<Self, SolveError> {
+        // The scene, and what its reader needed beside.
+        let taken = isolux_memory::peak_bytes();
         let seen = foresee(scene, request, PATIENCE)?;
-        let textures: u64 = scene.textures().iter().map(|t| t.srgb.len() as u64).sum();
-        let triangles = u64::from(scene.triangle_count());
-        let memory_bytes =
-            seen.receivers * BYTES_A_RECEIVER + triangles * BYTES_A_TRIANGLE + textures;
+        let memory_bytes = taken + seen.receivers * BYTES_A_RECEIVER;
         let limit_s = request.time_limit.map_or(f64::INFINITY, |limit| limit.as_secs_f64());
         let limited = |time_s: f64| time_s.min(limit_s);
         Ok(Self {

@@ -36,6 +36,10 @@ pub(crate) struct Flags {
     /// Let scenes name files outside of their folders: textures, buffers, includes, photometry. Give it only for scenes that you trust
     #[arg(long, global = true)]
     pub allow_outside: bool,
+    /// Memory that scenes, light and pictures may take, 64 MiB of the program beside; what needs more is refused: 8GiB, 500MB
+    /// [default: 8GiB for a map or a lightmap, else what the machine gives]
+    #[arg(long, global = true, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true)]
+    pub max_memory: Option<u64>,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,

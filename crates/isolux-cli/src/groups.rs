@@ -14,7 +14,7 @@ use crate::progress::Reporter;
 use crate::quantity::{show_seconds, show_share};
 use crate::report::Report;
 use crate::solving::{self, Run, Solved};
-use crate::{kept, map_file, saved_run, shown};
+use crate::{kept, map_file, memory, saved_run, shown};
 use isolux::engine::{MixPart, SolveRequest, mix};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
@@ -183,7 +183,7 @@ fn planned(
             OutputPath::check(&output.path().with_extension("exr"), "exr")?;
         }
     }
-    Planned::ahead(&flags.layout, scene, (whole.output, whole.request.max_memory_bytes))
+    Planned::ahead(&flags.layout, scene, (whole.output, memory::of_lightmap()))
 }
 
 /// Writes all maps anew, as texels of one layout; only the first of them if interrupted, which leaves the others at vertices.

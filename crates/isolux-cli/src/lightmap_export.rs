@@ -6,10 +6,10 @@ use crate::failure::Failure;
 use crate::flags::{ExportFlags, LayoutFlags};
 use crate::lightmap::{Baked, Planned};
 use crate::lightmap_files::{self, Kind, Made};
-use crate::map_file;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::source::{bad_file, reach, show_warnings};
+use crate::{map_file, memory};
 use isolux::lightmap::dark_sides;
 use isolux::scene::Scene;
 use isolux_formats::Loaded;
@@ -60,7 +60,7 @@ pub(crate) fn run(
                 if flags.without_dark { dark_sides(&scene, &map) } else { HashSet::default() };
             let texels_per_meter = flags.layout.texels_per_meter.or(density);
             let layout = LayoutFlags { texels_per_meter, ..flags.layout };
-            let planned = Planned::new(&layout, &scene, flags.max_memory, &dark)?;
+            let planned = Planned::new(&layout, &scene, memory::of_lightmap(), &dark)?;
             let Some(baked) = planned.bake((&scene, &map), (Clock::ENDLESS, None))? else {
                 note(Note::Warning, format!("{}: not written", output.path().display()));
                 return Ok(None);

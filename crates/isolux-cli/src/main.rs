@@ -38,6 +38,7 @@ mod look;
 mod maintained;
 mod map_facts;
 mod map_file;
+mod memory;
 mod meter;
 mod mix;
 mod new;
@@ -94,6 +95,7 @@ fn main() -> ExitCode {
 
 fn run(flags: &Flags) -> Result<Outcome, Failure> {
     let json = flags.json;
+    memory::bound(flags.max_memory, json);
     if flags.materials == MaterialsName::AsWritten {
         source::read_materials_as_written();
     }

@@ -8,7 +8,7 @@ use crate::kept::LessKnown;
 use crate::lightmap;
 use crate::maintained::Maintained;
 use crate::output::OutputPath;
-use crate::quantity::{show_count, show_seconds, show_share, significant};
+use crate::quantity::{show_bytes, show_count, show_seconds, show_share, significant};
 use crate::request::method_name;
 use isolux::engine::reference_lx;
 use isolux::map::{Audit, EnergyBalance, IlluminationMap, KnownSurface};
@@ -43,6 +43,8 @@ pub(crate) struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     unshot: Option<f64>,
     pub(crate) time_s: f64,
+    /// The most memory that the command has taken so far.
+    memory_peak_bytes: u64,
     increments: u64,
     rays: u64,
     receivers: usize,
@@ -94,6 +96,7 @@ impl Report {
             audit: from.audit.clone(),
             unshot: from.unshot.map(|unshot| unshot.share),
             time_s,
+            memory_peak_bytes: isolux_memory::peak_bytes(),
             increments: from.increments,
             rays: from.rays,
             receivers: map.values.len(),
@@ -161,6 +164,7 @@ impl Report {
             ("error of the interpolated map", share(self.accuracy_interpolated)),
             ("values", self.maintained.text()),
             ("time", show_seconds(self.time_s)),
+            ("memory", format!("{}, the program itself aside", show_bytes(self.memory_peak_bytes))),
             ("receivers", self.receivers.to_string()),
             ("increments", self.increments.to_string()),
             ("rays", show_count(self.rays as f64)),

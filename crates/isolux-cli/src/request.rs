@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::flags::{MethodName, Quality, RadiosityFlags, SolveFlags};
+use crate::memory;
 use crate::output::OutputPath;
 use isolux::engine::{IrradianceCache, RadiositySettings, SolveRequest};
 use isolux::map::Method;
@@ -73,7 +74,7 @@ fn request(flags: &SolveFlags) -> SolveRequest {
         seed: flags.seed,
         filter: !flags.no_filter,
         audit: !flags.no_audit,
-        max_memory_bytes: flags.max_memory,
+        max_memory_bytes: memory::of_map(),
         cache: IrradianceCache::default(),
         radiosity: radiosity(&flags.radiosity),
     }

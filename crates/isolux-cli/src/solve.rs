@@ -15,7 +15,7 @@ use crate::progress::Reporter;
 use crate::report::Report;
 use crate::serving::Live;
 use crate::solving::{Run, Solved, estimate, solve};
-use crate::{cache_samples, explain, groups, kept, request, saved_run, source};
+use crate::{cache_samples, explain, groups, kept, memory, request, saved_run, source};
 use isolux::engine::{IrradianceCache, RunState, Solution, SolveRequest};
 use isolux::scene::Scene;
 use isolux_formats::lightmap::Target;
@@ -41,7 +41,7 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
             Some(groups) => groups::estimate(groups, &flags.scene, &asked.request)?,
             None => estimate(&scene, &flags.scene, &asked.request)?,
         };
-        let memory_bytes = asked.request.max_memory_bytes;
+        let memory_bytes = memory::of_lightmap();
         let lightmap = Planned::asked(&flags.layout, &scene, memory_bytes)?;
         let count = groups.map_or(1, |groups| groups.len() + 1);
         let lightmap = lightmap.map(|planned| planned.sizes(&scene, count));
@@ -89,7 +89,7 @@ fn one(
     (clock, mut live): (Clock, Option<&mut Live>),
 ) -> Result<Written, Failure> {
     saved_run::check_writable(output)?;
-    let lightmap = Planned::ahead(&flags.layout, scene, (output, request.max_memory_bytes))?;
+    let lightmap = Planned::ahead(&flags.layout, scene, (output, memory::of_lightmap()))?;
     let saved =
         if flags.resume { saved_run::read(output, request.max_memory_bytes)? } else { None };
     let mut cache = None;

@@ -281,7 +281,7 @@ fn unsolvable(error: SolveError, (scene, path): (&Scene, &Path)) -> Failure {
     let source = path.display();
     match error {
         SolveError::Memory { needed, allowed } => Failure::Refused(format!(
-            "{source}: the map needs about {}, more than the {} of --max-memory; raise it, or ask \
+            "{source}: the map needs about {}, more than the {} that --max-memory leaves for it; raise it, or ask \
              for less with --mesh-accuracy",
             show_bytes(needed),
             show_bytes(allowed)

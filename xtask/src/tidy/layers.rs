@@ -6,7 +6,7 @@ use super::tree::Tree;
 const READERS: &[&str] = &["isolux", "isolux-formats", "isolux-compare", "isolux-view"];
 
 const COMMAND: &[&str] =
-    &["isolux", "isolux-formats", "isolux-compare", "isolux-view", "isolux-serve"];
+    &["isolux", "isolux-formats", "isolux-compare", "isolux-memory", "isolux-view", "isolux-serve"];
 
 /// Every crate and the crates of ours it may depend on.
 const ALLOWED: &[(&str, &[&str])] = &[
@@ -15,6 +15,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("isolux-formats", &["isolux"]),
     ("isolux-compare", &["isolux"]),
     ("isolux-view", &["isolux"]),
+    ("isolux-memory", &[]),
     ("isolux-serve", &[]),
     ("isolux-cli", COMMAND),
     ("isolux-python", READERS),

@@ -92,9 +92,6 @@ pub(crate) struct ExportFlags {
     /// Luminance that colours of vertices show as white: 500cd/m2 [default: what 99 % of all surfaces stay below]
     #[arg(long, value_name = "LUMINANCE", value_parser = quantity::luminance_cd_m2, allow_hyphen_values = true)]
     pub white: Option<f64>,
-    /// Refuse to need more memory than this for a lightmap: 8GiB, 500MB
-    #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
-    pub max_memory: u64,
     /// Threads to use, at most 1024 [default: all there are]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
     pub threads: Option<u16>,

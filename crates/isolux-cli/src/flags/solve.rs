@@ -47,9 +47,6 @@ pub(crate) struct SolveFlags {
     /// Threads to use, at most 1024 [default: all there are]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
     pub threads: Option<u16>,
-    /// Memory for elements and rays, some 50 MB of the program beside; refuses where it does not do: 8GiB, 500MB
-    #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
-    pub max_memory: u64,
     /// Leave the noise in: without it, single receivers are as far off as their standard errors say
     #[arg(long)]
     pub no_filter: bool,
@@ -121,9 +118,6 @@ pub(crate) struct BakeFlags {
     /// Seed of the random numbers: the same seed gives the same bits
     #[arg(long, value_name = "N", value_parser = quantity::seed, default_value = "1", allow_hyphen_values = true)]
     pub seed: u64,
-    /// Memory for the run and the lightmap; refuses where it does not do: 8GiB, 500MB
-    #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
-    pub max_memory: u64,
     /// Threads to use, at most 1024 [default: all there are]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
     pub threads: Option<u16>,

@@ -87,6 +87,18 @@ fn rounds_are_added_until_the_noise_is_as_asked_for() {
 }
 
 #[test]
+fn a_picture_of_more_memory_than_allowed_is_refused_in_words() {
+    let home = solved();
+    let large = ["render", "m.glb", "-o", "v.png", "--size", "4000x3000", "--max-memory", "100MB"];
+    let ran = home.run(&large);
+    assert_eq!(ran.code, 4, "{ran:?}");
+    assert!(ran.err.contains("more than the 95.4 MiB of --max-memory; raise it"), "{}", ran.err);
+    let ran = home.run(&[&large[..], &["--json"]].concat());
+    assert_eq!((ran.code, &ran.json()["error"]["exit_code"]), (4, &4.into()), "{ran:?}");
+    assert!(!home.names().contains(&"v.png".to_owned()));
+}
+
+#[test]
 fn what_does_not_go_together_is_refused() {
     let home = solved();
     home.file("text.icc", "no profile");

@@ -1,0 +1,61 @@
+//! How much memory the command may take, and its end where that does not do.
+
+use crate::console;
+use crate::notes::{Note, note};
+use crate::quantity::show_bytes;
+use crate::trouble::{self, Trouble};
+use isolux_memory::{Counted, Lack};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+#[global_allocator]
+static MEMORY: Counted = Counted;
+
+/// Memory that a map or a lightmap may take without a word, bytes.
+const USUAL: u64 = 8 << 30;
+/// What the program takes beside scenes and light.
+const PROGRAM: u64 = 64 << 20;
+/// The exit code of what the machine cannot do.
+const REFUSED: i32 = 4;
+
+/// What was asked for, bytes.
+static ASKED: OnceLock<u64> = OnceLock::new();
+static IS_JSON: AtomicBool = AtomicBool::new(false);
+
+/// Bounds the memory of the command, if that is asked for, and ends it in words where it lacks memory.
+pub(crate) fn bound(asked: Option<u64>, json: bool) {
+    IS_JSON.store(json, Ordering::Relaxed);
+    isolux_memory::end_by(end);
+    if let Some(bytes) = asked {
+        let _ = ASKED.set(bytes);
+        isolux_memory::allow(bytes.saturating_add(PROGRAM));
+    }
+}
+
+/// Memory for the elements and the rays of a map, bytes. Of what was asked for the scene, readers and what is written take the other half.
+pub(crate) fn of_map() -> u64 {
+    ASKED.get().map_or(USUAL, |bytes| bytes / 2)
+}
+
+/// Memory for a lightmap, bytes.
+pub(crate) fn of_lightmap() -> u64 {
+    ASKED.get().copied().unwrap_or(USUAL)
+}
+
+fn end(lack: Lack) -> ! {
+    let [used, wanted] = [lack.used, lack.wanted].map(|bytes| show_bytes(bytes as u64));
+    let (whose, remedy) = match lack.allowed.and(ASKED.get()) {
+        Some(asked) => (format!("the {} of --max-memory", show_bytes(*asked)), "raise it"),
+        None => ("this machine gives".to_owned(), "use a machine with more"),
+    };
+    let what = format!(
+        "{used} of memory are in use, and {wanted} more are needed, more than {whose}; {remedy}, or ask for less: a larger \
+         --accuracy, fewer texels or pixels, a simpler scene"
+    );
+    note(Note::Refused, &what);
+    if IS_JSON.load(Ordering::Relaxed) {
+        // Nobody may be there to read it.
+        let _ = console::print_json(&trouble::json(&[Trouble::in_words(&what)], REFUSED as u8));
+    }
+    std::process::exit(REFUSED)
+}
