@@ -1,4 +1,5 @@
 //! Memory of a program that has the allocator. The test is a program of its own: it is run a second time to be ended.
+#![expect(clippy::print_stderr, reason = "the second program speaks")]
 
 use isolux_memory::{Counted, Lack, allow, end_by, peak_bytes};
 use std::process::Command;
