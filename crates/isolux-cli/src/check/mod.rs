@@ -6,6 +6,7 @@ mod extent;
 mod finding;
 mod lamps;
 mod light;
+mod outside;
 
 use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;

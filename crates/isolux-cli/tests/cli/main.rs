@@ -6,6 +6,7 @@ mod bad_input;
 #[cfg(unix)]
 mod caches;
 mod dark;
+mod degenerate;
 mod days;
 mod engines;
 mod errors;
