@@ -108,8 +108,7 @@ pub(crate) fn is_builtin(source: &Path) -> bool {
 /// Reads what a scene is made of.
 pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
     if let Some(further) = FURTHER_FILES.get() {
-        return isolux_formats::load_several(&together(source, further), reach())
-            .map_err(bad_file);
+        return isolux_formats::load_several(&together(source, further), reach()).map_err(bad_file);
     }
     match source.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {
         Some(name) => built_in(name).map(|value| Loaded { value, warnings: Vec::new() }),

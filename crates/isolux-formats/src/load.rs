@@ -31,8 +31,7 @@ pub fn load_several(paths: &[&Path], reach: Reach) -> Result<Loaded<SceneParts>,
 
 /// Whether files can make up one scene.
 pub fn check_together(paths: &[&Path]) -> Result<(), Problems> {
-    let is_radiance =
-        |path: &Path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("rad"));
+    let is_radiance = |path: &Path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("rad"));
     let mut problems = Vec::new();
     for path in paths {
         if !is_radiance(path) {

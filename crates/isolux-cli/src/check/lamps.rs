@@ -1,5 +1,6 @@
 //! Luminaires that light nothing.
 
+use super::around::{all_around, extent_m};
 use super::finding::Finding;
 use super::outside::is_outside;
 use isolux::geometry::{Direction, Point, Ray, Vector};
@@ -96,12 +97,6 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
             seen.as_ref().is_some_and(is_close)
         })
     };
-    let in_scene = |local: &Direction| world_from_luminaire.vector(local.to_vector()).direction();
-    let directions = || all_around().iter().filter_map(in_scene).collect::<Vec<_>>();
-    let sent = || {
-        let lit = all_around().into_iter().filter(|local| intensity.intensity_cd(*local) > 0.0);
-        lit.filter_map(|local| in_scene(&local)).collect::<Vec<_>>()
-    };
     // A beam narrower than the directions tried is left alone.
     if looks.is_empty() {
         None
@@ -109,7 +104,7 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
         Some(Trouble::LightsNothing)
     } else if seen().all(|s| s.black_back) {
         Some(Trouble::LightsBlackBacks)
-    } else if seen().all(|s| s.back) && is_outside(scene, *position, &sent(), &directions()) {
+    } else if seen().all(|s| s.back) && is_outside(scene, luminaire) {
         Some(Trouble::Outside)
     } else if looks.iter().all(|(_, l)| l.as_ref().is_some_and(|s| s.mirrors_alone)) {
         Some(Trouble::LightsMirrorsAlone)
@@ -178,24 +173,6 @@ fn ends_among_mirrors(scene: &Scene, mut from: Point, mut direction: Direction) 
         direction = reflected;
     }
     true
-}
-
-pub(super) fn extent_m(scene: &Scene) -> f64 {
-    scene.bvh().mesh().bounds().map_or(0.0, |(low, high)| (high - low).length())
-}
-
-/// The 26 neighbours of the middle of a cube of cubes, away from edges of a model on a grid.
-fn all_around() -> Vec<Direction> {
-    let steps = [-1.0, 0.0, 1.0];
-    let mut directions = Vec::new();
-    for x in steps {
-        for y in steps {
-            for z in steps {
-                directions.extend(Vector::new(x + 0.013, y + 0.007, z - 0.011).direction());
-            }
-        }
-    }
-    directions
 }
 
 fn finding(luminaire: &Luminaire, trouble: Trouble) -> Finding {
@@ -372,7 +349,12 @@ mod tests {
             // The luminaire is beside the room.
             (vec![moved(room(), 5.5)], 1.0, true, Some(Trouble::Outside)),
             (vec![moved(room(), 5.5)], 1.0, false, Some(Trouble::LightsBlackBacks)),
-            (vec![moved(room(), 5.5), moved(cube(1.0, false), 8.0)], 1.0, true, Some(Trouble::Outside)),
+            (
+                vec![moved(room(), 5.5), moved(cube(1.0, false), 8.0)],
+                1.0,
+                true,
+                Some(Trouble::Outside),
+            ),
             // Of a solid it lights what there is to light, and a room with a window it may light inside.
             (vec![moved(cube(5.0, false), 5.5)], 1.0, true, None),
             (vec![moved(open(room()), 5.5)], 1.0, true, None),

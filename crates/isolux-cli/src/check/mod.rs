@@ -1,5 +1,6 @@
 //! `isolux check`: audit of a scene before a run.
 
+mod around;
 mod borders;
 mod energy;
 mod extent;

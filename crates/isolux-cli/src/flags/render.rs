@@ -1,5 +1,6 @@
 //! Arguments of `render`.
 
+use super::solve::FURTHER_HELP;
 use crate::appearance::{self, ExposureChoice, ProfileChoice, WhiteChoice};
 use crate::quantity;
 use clap::{Args, ValueEnum};

@@ -6,8 +6,8 @@ mod bad_input;
 #[cfg(unix)]
 mod caches;
 mod dark;
-mod degenerate;
 mod days;
+mod degenerate;
 mod engines;
 mod errors;
 mod grids;
@@ -23,6 +23,7 @@ mod ran;
 mod readme;
 mod results;
 mod rooms;
+mod several;
 mod tables;
 mod views;
 #[cfg(unix)]

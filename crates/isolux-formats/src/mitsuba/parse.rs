@@ -187,7 +187,9 @@ impl Parser<'_> {
 
     /// Puts what the file of a spectrum says in the place of its name.
     fn read_spectrum(&mut self, attributes: &mut Vec<(String, String)>, at: &At) {
-        let Some(place) = attributes.iter().position(|(name, _)| name == "filename") else { return };
+        let Some(place) = attributes.iter().position(|(name, _)| name == "filename") else {
+            return;
+        };
         let name = attributes[place].1.clone();
         let read = self.root.file(&name).map_err(|why| why.explain(&name));
         let pairs = read.and_then(|path| {

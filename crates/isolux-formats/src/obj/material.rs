@@ -259,7 +259,9 @@ fn dielectric(
     let least = if materials == meaning::Materials::AsWritten { 0.0 } else { 1.0 };
     let (ior, instead) = match record.ni {
         Some(ni) if ni > least => (ni, String::new()),
-        Some(ni) => (USUAL_INDEX, format!(" (instead of Ni {}, which would not refract)", short(ni, 4))),
+        Some(ni) => {
+            (USUAL_INDEX, format!(" (instead of Ni {}, which would not refract)", short(ni, 4)))
+        }
         None => (USUAL_INDEX, String::new()),
     };
     let kind = if thin { "a thin pane" } else { "solid glass" };

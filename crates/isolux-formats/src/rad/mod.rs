@@ -18,6 +18,7 @@ mod luminaires;
 mod material;
 mod mixture;
 mod modifiers;
+mod named_files;
 mod parse;
 mod reader;
 mod record;

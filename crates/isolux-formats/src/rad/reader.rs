@@ -8,6 +8,7 @@ use super::look::{Look, look};
 use super::luminaires;
 use super::material::Made;
 use super::modifiers::{Modifiers, Named};
+use super::named_files::named_file;
 use super::parse::parse;
 use super::record::{Item, Kind, Object, kind_of};
 use super::tables::Tables;
@@ -41,18 +42,6 @@ pub(super) struct Reader<'a> {
     tables: Tables,
     builder: Builder,
     first_light: Option<At>,
-}
-
-/// A file named in another that lies in `base`: relative to that, or to one of the folders of the scene.
-pub(super) fn named_file(roots: &[Root], base: &Path, name: &str) -> Result<PathBuf, Unreachable> {
-    let mut refused = Unreachable::Missing;
-    for root in roots.iter().rev() {
-        match root.file_beside(base, name).or_else(|_| root.file(name)) {
-            Ok(path) => return Ok(path),
-            Err(why) => refused = why,
-        }
-    }
-    Err(refused)
 }
 
 /// Whether to go on.

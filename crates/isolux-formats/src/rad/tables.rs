@@ -3,9 +3,9 @@
 use super::build::Builder;
 use super::limits;
 use super::look::Look;
-use super::reader::named_file;
 use super::luminaires::{self, Middle, middle};
 use super::modifiers::Modifiers;
+use super::named_files::named_file;
 use super::table::{self, Half, Table};
 use super::tessellate::area;
 use crate::lines::Notes;
@@ -87,8 +87,8 @@ impl Light {
         let definition = modifiers.get(self.definition);
         let table = table::parse(definition)?;
         let base = directory_of(&definition.at.file);
-        let path = named_file(roots, base, &table.file)
-            .map_err(|why| why.explain(&table.file).0)?;
+        let path =
+            named_file(roots, base, &table.file).map_err(|why| why.explain(&table.file).0)?;
         if let table::Shape::Body { area_m2 } = table.shape {
             return self.body(&table, &path, area_m2, builder);
         }

@@ -124,7 +124,8 @@ fn spectra_by_type() {
 #[test]
 fn spectra_in_files() {
     let colour = |spectrum: &str, file: &str| {
-        let inside = format!("<shape type='rectangle'><bsdf type='diffuse'>{spectrum}</bsdf></shape>");
+        let inside =
+            format!("<shape type='rectangle'><bsdf type='diffuse'>{spectrum}</bsdf></shape>");
         read_with(&inside, &[("paint.spd", file)]).map(|read| {
             let parts = read.value;
             let body = &parts.materials[parts.shapes[0].material as usize].body;

@@ -88,7 +88,10 @@ fn check(case: &Case, of_room: &[Reading]) {
         }
         Due::Dark => {
             let dark = (Some(0.0), Some(0.0));
-            assert!(map.iter().chain(&of_paths(&home, case)).all(|r| *r == dark), "{name}: {map:?}");
+            assert!(
+                map.iter().chain(&of_paths(&home, case)).all(|r| *r == dark),
+                "{name}: {map:?}"
+            );
         }
         Due::Told(_) => assert!(map.iter().all(|r| r.0.is_none()), "{name}: {map:?}"),
         Due::WithoutError(_) => assert!(map.iter().all(|r| r.1.is_none()), "{name}: {map:?}"),

@@ -28,7 +28,8 @@ const SUN_AND_CANDLE: &str = "[[luminaire]]\nname = 'sun'\ndirection = [-1, 0.1,
     directional = { illuminance_lx = 90000 }\n\
     [[luminaire]]\nname = 'candle'\nposition = [1, 1, 1]\nisotropic = { intensity_cd = 1 }\n";
 /// A closed box around the lamp.
-const HOUSING: &str = "[[geometry]]\nmaterial = 'm'\nbox = { min = [1.5, 1.2, 1.8], max = [1.9, 1.6, 2.2] }\n";
+const HOUSING: &str =
+    "[[geometry]]\nmaterial = 'm'\nbox = { min = [1.5, 1.2, 1.8], max = [1.9, 1.6, 2.2] }\n";
 /// In the plane of the floor.
 const RUG: &str = "[materials.n]\ndiffuse = 0.1\n[[geometry]]\nmaterial = 'n'\n\
     rectangle = { corner = [1.5, 0.5, 0], u = [2, 0, 0], v = [0, 2, 0] }\n";
@@ -106,6 +107,7 @@ pub(super) fn cases() -> Vec<Case> {
             Due::WithoutError("surfaces that absorb almost nothing"),
         ),
         case("light inside a closed box", format!("{plain}{HOUSING}"), Due::Dark),
+        case("a luminaire outside of the room", plain.replace("1.4, 2]", "1.4, 3]"), Due::Dark),
         at(
             "1 1 0 0 0 1\n4 1 1 -1 0 0\n0.7 2.5 0 0 0 1\n",
             case("a rug in the plane of the floor", format!("{plain}{RUG}"), Due::AsPaths),
