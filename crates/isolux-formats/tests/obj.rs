@@ -405,8 +405,8 @@ fn broken_mtl_is_a_problem_of_the_mtl_file() {
 #[test]
 fn odd_lines_of_materials_are_told_with_what_is_taken() {
     for (line, told) in [
-        ("Tf xyz 0.9505 1 1.089", "is read as 1 1 1 in linear Rec. 709"),
-        ("Tf xyz 0.5", "is read as 0.6024"),
+        ("Tf xyz 0.9505 1 1.089", "is read as 1 1 0.9999 in linear Rec. 709"),
+        ("Tf xyz 0.5", "is read as 0.6025"),
         ("Tf spectral glass.rfl 1.0", "is a spectrum, which is not read: the line is left out"),
         ("Ke spectral lamp.rfl", "is a spectrum"),
         ("illum 99", "`illum 99` is no model from 0 to 10: the line is left out"),

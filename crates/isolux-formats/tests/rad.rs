@@ -370,6 +370,17 @@ fn mixtures_count_by_their_mean() {
             "{told}"
         );
     }
+    // A number is a share, and needs no warning.
+    let text = format!(
+        "void plastic a 0 0 5 .8 .8 .8 0 0\nvoid plastic b 0 0 5 .2 .4 .6 0 0\n\
+         void mixfunc x 4 a b 0.25 . 0 0\nx {FACE}"
+    );
+    let quarter = read_with(&text, &[]).unwrap();
+    assert_eq!(quarter.warnings, []);
+    let front = quarter.value.materials[0].finish(true).unwrap();
+    for (found, due) in front.diffuse.colour.0.iter().zip([0.35, 0.5, 0.65]) {
+        near(*found, due);
+    }
     let holed = made("mixfunc", "a void", "").unwrap();
     near(holed.value.materials[0].finish(true).unwrap().diffuse.colour.0[0], 0.8);
     assert!(holed.warnings[0].what.contains("has holes"));

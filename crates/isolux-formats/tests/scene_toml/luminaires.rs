@@ -5,6 +5,7 @@ use isolux::geometry::{Direction, Point, Vector};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{AreaShape, Luminaire, LuminaireKind, Scene, SceneParts};
 use isolux::units::Rgb;
+use isolux_formats::Problems;
 use std::f64::consts::PI;
 
 fn parts(luminaire: &str) -> SceneParts {
