@@ -12,6 +12,9 @@
 //! | `illum` 6, 7 | solid glass of index `Ni`, transmitting `Tf` |
 //! | `illum` 4, 9, or `d` below 1 | a thin pane transmitting `Tf`, or else `1 - d` |
 //!
+//! Colours may be given as `xyz`; as `spectral` they are left out, as is every other line that says nothing here, with a warning.
+//! Colours of vertices are read as reflectance of faces without a material, only where a `scene.toml` asks for them.
+//!
 //! What would make most coloured surfaces of a file invisible by this letter is read as opaque, with a
 //! warning, because no writer means it; `meaning.rs` says what. A library that is missing is looked for
 //! in other cases of letters, and then under the name of the OBJ file.
