@@ -10,12 +10,12 @@ pub(crate) use render::{
 pub(crate) use shown::{ExportFlags, LayoutFlags, LayoutName, ServerFlags, TargetName, ViewFlags};
 pub(crate) use solve::{BakeFlags, MethodName, ProgressStyle, Quality, RadiosityFlags, SolveFlags};
 
-use solve::SCENE_HELP;
+use solve::{FURTHER_HELP, SCENE_HELP};
 
 use crate::dimming::{DimmedMap, dimmed_group};
 use crate::quantity;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Illumination maps: lux on every surface of a scene, with a standard error.
@@ -97,6 +97,24 @@ pub(crate) enum Command {
     Man(ManFlags),
 }
 
+impl Command {
+    /// What a command reads, and the files that make up one scene with it.
+    pub(crate) fn read_together(&self) -> Option<(&Path, &[PathBuf])> {
+        let (first, further) = match self {
+            Self::Solve(flags) => (&flags.scene, &flags.further),
+            Self::Bake(flags) => (&flags.scene, &flags.further),
+            Self::Check(flags) => (&flags.scene, &flags.further),
+            Self::Scene(flags) => (&flags.scene, &flags.further),
+            Self::Info(flags) => (&flags.file, &flags.further),
+            Self::Render(flags) => (&flags.map, &flags.further),
+            Self::Grid(flags) => (&flags.source, &flags.further),
+            Self::Probe(flags) => (&flags.source, &flags.further),
+            _ => return None,
+        };
+        (!further.is_empty()).then_some((first, further))
+    }
+}
+
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   isolux new office --size 6x5x2.8 -o room.toml
@@ -153,6 +171,8 @@ pub(crate) struct InfoFlags {
     /// A map (.glb), a scene (.gltf, .glb, .obj, .ply, .rad, .stl, .xml, scene.toml, builtin:NAME), a photometric file (.ies, .ldt) or a cache
     /// of samples
     pub file: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -172,6 +192,8 @@ pub(crate) struct ProbeFlags {
     /// The map (.glb), or a scene, which needs no map but time
     #[arg(value_name = "MAP|SCENE")]
     pub source: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
     /// File of points, - for standard input
     #[arg(long, value_name = "P.pts")]
     pub points: PathBuf,
@@ -235,6 +257,8 @@ pub(crate) struct GridFlags {
     /// The map (.glb), or a scene
     #[arg(value_name = "MAP|SCENE")]
     pub source: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
     /// One grid of the scene only
     #[arg(long, value_name = "NAME", conflicts_with_all = ["height", "corner"])]
     pub name: Option<String>,
@@ -301,6 +325,8 @@ pub(crate) struct MixFlags {
 pub(crate) struct CheckFlags {
     #[arg(help = SCENE_HELP)]
     pub scene: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -364,6 +390,8 @@ the scene again, with the same hash if its geometry is flat.")]
 pub(crate) struct SceneFlags {
     #[arg(help = SCENE_HELP)]
     pub scene: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
     /// Folder for the files
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,

@@ -102,6 +102,9 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
     if flags.allow_outside {
         source::allow_outside();
     }
+    if let Some((first, further)) = flags.command.read_together() {
+        source::read_together(first, further)?;
+    }
     let threads = match &flags.command {
         Command::Solve(flags) => flags.threads,
         Command::Export(flags) => flags.threads,

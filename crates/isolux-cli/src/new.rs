@@ -25,6 +25,12 @@ const DESK_FLOOR_M: [f64; 2] = [2.4, 2.2];
 /// The distance of desks from walls, m.
 const FROM_WALL_M: f64 = 0.3;
 
+/// What furniture is made of.
+const WOOD: &str = "[materials.wood]
+diffuse = [0.45, 0.36, 0.27]
+
+";
+
 /// Runs the subcommand.
 pub(crate) fn run(flags: &NewFlags, json: bool) -> Result<Outcome, Failure> {
     let output = OutputPath::check(&flags.output, "toml")?;
@@ -53,6 +59,11 @@ struct Written {
 
 /// The text of a scene with a room of this width, depth and height, m.
 fn room(kind: RoomKind, [width, depth, height]: [f64; 3]) -> String {
+    let mut furnished = String::new();
+    if kind == RoomKind::Office {
+        furniture(&mut furnished, [width, depth]);
+    }
+    let wood = if furnished.is_empty() { "" } else { WOOD };
     let mut text = format!(
         "# A room of {width} m x {depth} m x {height} m: x is its width, y its depth, z up. Lengths are in metres.
 # All keys: docs/book/scenes.md. To see what there is: isolux check, isolux info.
@@ -67,10 +78,7 @@ diffuse = 0.8
 [materials.floor]
 diffuse = 0.3
 
-[materials.wood]
-diffuse = [0.45, 0.36, 0.27]
-
-[materials.panel]                     # a luminous surface: flux / (pi area)
+{wood}[materials.panel]                     # a luminous surface: flux / (pi area)
 luminance_cd_m2 = {:.0}
 sided = \"one\"
 
@@ -87,9 +95,7 @@ materials = {{ z_min = \"floor\", z_max = \"ceiling\" }}
         PANEL_LM / (PI * PANEL_M * PANEL_M)
     );
     panels(&mut text, [width, depth, height]);
-    if kind == RoomKind::Office {
-        furniture(&mut text, [width, depth]);
-    }
+    text += &furnished;
     finish(&mut text, [width, depth, height]);
     text
 }
@@ -206,11 +212,14 @@ mod tests {
             (RoomKind::Office, [6.0, 5.0, 2.8]),
             (RoomKind::Office, [2.0, 1.5, 2.2]),
             (RoomKind::Office, [30.0, 12.0, 3.2]),
+            (RoomKind::Office, [1.0, 1.0, 1.0]),
             (RoomKind::Empty, [4.0, 4.0, 3.0]),
         ] {
             let path = folder.path().join("room.toml");
             std::fs::write(&path, room(kind, size)).unwrap();
             let parts = crate::source::read_parts(&path).unwrap_or_else(|_| panic!("{size:?}"));
+            // Regression: rooms without furniture had a material that nothing used.
+            assert_eq!(parts.warnings, [], "{kind:?} {size:?}");
             let scene = Scene::assemble(parts.value).unwrap();
             assert_eq!(scene.cameras().len(), 1);
             let lm_a_m2 = scene.luminous_flux_lm() / (size[0] * size[1]);

@@ -99,8 +99,16 @@ mod tests {
             let home = tempfile::tempdir().unwrap();
             let output = home.path().join("made");
             let scene = PathBuf::from(name);
-            run(&SceneFlags { scene: scene.clone(), output: output.clone(), force: false }, true)
-                .unwrap();
+            run(
+                &SceneFlags {
+                    scene: scene.clone(),
+                    further: Vec::new(),
+                    output: output.clone(),
+                    force: false,
+                },
+                true,
+            )
+            .unwrap();
             let written = output.join("scene.toml");
             let Loaded { value, warnings } = source::read_parts(&written).unwrap();
             assert_eq!(warnings, [], "{name}");
@@ -121,7 +129,12 @@ mod tests {
             let name = made.name();
             let home = tempfile::tempdir().unwrap();
             let scene = PathBuf::from(format!("builtin:{name}"));
-            let flags = SceneFlags { scene, output: home.path().to_owned(), force: false };
+            let flags = SceneFlags {
+                scene,
+                further: Vec::new(),
+                output: home.path().to_owned(),
+                force: false,
+            };
             run(&flags, true).unwrap();
             let written = home.path().join("scene.toml");
             let Loaded { value, warnings } = source::read_parts(&written).unwrap();
@@ -170,7 +183,12 @@ mod tests {
                     luminous_area = { shape = 'cylinder_x', size_m = [0.4,0.2,0.2] }\n";
         std::fs::write(&scene, text).unwrap();
         let output = home.path().join("made");
-        let flags = SceneFlags { scene: scene.clone(), output: output.clone(), force: false };
+        let flags = SceneFlags {
+            scene: scene.clone(),
+            further: Vec::new(),
+            output: output.clone(),
+            force: false,
+        };
         run(&flags, true).unwrap();
         let written = output.join("scene.toml");
         assert_eq!(source::read_parts(&written).unwrap().warnings, []);
@@ -181,6 +199,7 @@ mod tests {
     fn files_are_not_replaced_unasked() {
         let home = tempfile::tempdir().unwrap();
         let flags = |force| SceneFlags {
+            further: Vec::new(),
             scene: "builtin:cube".into(),
             output: home.path().to_owned(),
             force,

@@ -8,7 +8,8 @@ use isolux::scene::{Scene, SceneParts, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
 use isolux_formats::obj::Materials;
 use isolux_formats::{Loaded, Problem, Problems, Reach};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What comes before the name of a scene that is built in.
@@ -36,6 +37,22 @@ pub(crate) fn reach() -> Reach {
         true => Reach::Anywhere,
         false => Reach::Inside,
     }
+}
+
+/// Files that make up one scene with the one that a command reads.
+static FURTHER_FILES: OnceLock<Vec<PathBuf>> = OnceLock::new();
+
+/// From now on scenes are read together with further files, if all are of the kind that can be.
+pub(crate) fn read_together(first: &Path, further: &[PathBuf]) -> Result<(), Failure> {
+    let files = together(first, further);
+    isolux_formats::check_together(&files).map_err(bad_file)?;
+    // It is said once, before anything is read.
+    let _ = FURTHER_FILES.set(further.to_owned());
+    Ok(())
+}
+
+fn together<'a>(first: &'a Path, further: &'a [PathBuf]) -> Vec<&'a Path> {
+    std::iter::once(first).chain(further.iter().map(PathBuf::as_path)).collect()
 }
 
 /// How materials of other formats are read.
@@ -90,6 +107,9 @@ pub(crate) fn is_builtin(source: &Path) -> bool {
 
 /// Reads what a scene is made of.
 pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
+    if let Some(further) = FURTHER_FILES.get() {
+        return isolux_formats::load_several(&together(source, further), reach()).map_err(bad_file);
+    }
     match source.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {
         Some(name) => built_in(name).map(|value| Loaded { value, warnings: Vec::new() }),
         None => isolux_formats::load_with(source, materials(), reach()).map_err(bad_file),

@@ -14,6 +14,10 @@ pub fn check_writable(path: &Path) -> Result<(), Problem> {
         return Err(problem(path, "the path names no file", "add a file name"));
     }
     let directory = directory_of(&followed(path));
+    if let Some(file) = directory.ancestors().find(|above| above.is_file()) {
+        let what = format!("`{}` is a file, not a directory", file.display());
+        return Err(problem(path, what, "choose another place"));
+    }
     if !directory.is_dir() {
         let what = format!("there is no directory `{}`", directory.display());
         return Err(problem(path, what, "create it or choose another place"));
@@ -152,7 +156,8 @@ mod tests {
         fs::write(at("file"), "").unwrap();
         for (path, what) in [
             (at("missing/map.glb"), "there is no directory"),
-            (at("file/map.glb"), "there is no directory"),
+            (at("file/map.glb"), "file` is a file, not a directory"),
+            (at("file/maps/map.glb"), "file` is a file, not a directory"),
             (directory.path().to_owned(), "is a directory"),
             (PathBuf::from("/"), "the path names no file"),
             (PathBuf::new(), "the path names no file"),

@@ -19,6 +19,15 @@ pub fn significant(value: f64, digits: usize) -> String {
     format!("{value:.*}", decimals as usize)
 }
 
+/// A number with at most so many significant digits, and without zeros at its end: 0.2 for 0.199999.
+pub fn short(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    if text.contains('e') || !text.contains('.') {
+        return text;
+    }
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// Where the first digit of an error stands behind the point, negative before it; `None` if it says nothing.
 pub fn first_digit(error: f64) -> Option<i32> {
     (error > 0.0 && error.is_finite()).then(|| -(error.log10().floor() as i32))
@@ -72,6 +81,10 @@ mod tests {
         // What would have no digit left.
         assert_eq!(significant(1e-13, 3), "1.00e-13");
         assert_eq!(significant(-3.21e-14, 2), "-3.2e-14");
+        // Regression: messages showed 0.19999999999999996.
+        assert_eq!(short(1.0 - 0.8, 4), "0.2");
+        assert_eq!(short(100.0, 4), "100");
+        assert_eq!(short(0.0, 4), "0");
     }
 
     #[test]

@@ -43,7 +43,7 @@ pub mod stl;
 pub mod walk;
 
 pub use counted::counted;
-pub use digits::{Digits, first_digit, significant, to_decimals};
-pub use load::{load, load_with};
+pub use digits::{Digits, first_digit, short, significant, to_decimals};
+pub use load::{check_together, load, load_several, load_with};
 pub use problem::{Loaded, Problem, Problems};
 pub use reach::Reach;

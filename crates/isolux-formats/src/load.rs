@@ -19,7 +19,35 @@ pub fn load_with(
     materials: Materials,
     reach: Reach,
 ) -> Result<Loaded<SceneParts>, Problems> {
-    let Loaded { mut value, mut warnings } = read(path, materials, reach)?;
+    finished(path, read(path, materials, reach)?)
+}
+
+/// Reads a scene that several Radiance files make up, in their order.
+pub fn load_several(paths: &[&Path], reach: Reach) -> Result<Loaded<SceneParts>, Problems> {
+    check_together(paths)?;
+    let first = paths.first().copied().unwrap_or(Path::new(""));
+    finished(first, rad::read_several(paths, reach)?)
+}
+
+/// Whether files can make up one scene.
+pub fn check_together(paths: &[&Path]) -> Result<(), Problems> {
+    let is_radiance = |path: &Path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("rad"));
+    let mut problems = Vec::new();
+    for path in paths {
+        if !is_radiance(path) {
+            let what = "is no Radiance file (.rad), and only those are read together";
+            let remedy = "name one scene; a scene.toml joins files of all kinds";
+            problems.push(Problem::new(path, "", what, remedy));
+        } else if let Err(problem) = source::check_present(path) {
+            problems.push(problem);
+        }
+    }
+    if problems.is_empty() { Ok(()) } else { Err(Problems(problems)) }
+}
+
+/// What was read, within the bounds of numbers and of reflectances.
+fn finished(path: &Path, read: Loaded<SceneParts>) -> Result<Loaded<SceneParts>, Problems> {
+    let Loaded { mut value, mut warnings } = read;
     bounds::check(path, &value)?;
     warnings.extend(value.hold_reflectances().iter().map(|lowered| held(path, lowered)));
     Ok(Loaded { value, warnings })

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
-use isolux::scene::{Body, Scene, SceneParts, UpAxis};
+use isolux::scene::{Body, Finish, Scene, SceneParts, UpAxis};
 use isolux::units::Rgb;
 use isolux_formats::obj::{self, Materials};
 use isolux_formats::{Loaded, Problems, Reach};
@@ -272,18 +272,44 @@ fn a_missing_library_is_looked_for() {
     }
 }
 
+/// As MeshLab writes it: numbers behind the place, of eight bits. The second half has a material.
+const COLOURED: &str = "mtllib thing.mtl\nv 0 0 0 0.737255 0.000000 1.000000\nv 1 0 0 0.737255 0.000000 1.000000\n\
+                        v 1 1 0 0.737255 0.000000 1.000000\nv 0 1 0 0.737255 0.000000 1.000000\nf 1 2 3\n\
+                        usemtl m\nf 1 3 4\n";
+
+fn read_coloured(obj_text: &str, entry: &str) -> Result<Loaded<SceneParts>, Problems> {
+    let dir = tempfile::tempdir().unwrap();
+    std::fs::write(dir.path().join("thing.obj"), obj_text).unwrap();
+    std::fs::write(dir.path().join("thing.mtl"), "newmtl m\nKd 0.3\n").unwrap();
+    let scene = dir.path().join("scene.toml");
+    std::fs::write(&scene, format!("[[geometry]]\nfile = 'thing.obj'\n{entry}\n")).unwrap();
+    isolux_formats::scene_toml::read(&scene)
+}
+
 #[test]
-fn colours_of_vertices_are_told() {
-    let text = "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n";
-    let warnings = read_text(text, "").unwrap().warnings;
-    assert!(warnings.iter().any(|w| w.what.contains("colours of 3 vertices")), "{warnings:?}");
-    assert!(
-        !read_text("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n", "")
-            .unwrap()
-            .warnings
-            .iter()
-            .any(|w| w.what.contains("colours"))
-    );
+fn colours_of_vertices_are_reflectances_where_that_is_asked_for() {
+    let of_bytes = COLOURED.replace("0.737255", "188").replace("1.000000", "255");
+    for text in [COLOURED, &of_bytes] {
+        let loaded = read_coloured(text, "vertex_colours = true").unwrap();
+        assert_eq!(loaded.warnings, []);
+        let SceneParts { shapes, materials, textures, .. } = loaded.value;
+        let finish = |k: usize| materials[shapes[k].material as usize].finish(false).unwrap();
+        let texture = &textures[finish(0).diffuse.texture.unwrap() as usize];
+        // Code 188 of sRGB is 0.503 of the light.
+        assert_eq!(texture.srgb[..3], [188, 0, 255], "{text}");
+        assert_eq!(finish(1), &Finish::diffuse(Rgb::grey(0.3)));
+    }
+    let warned = read_text(COLOURED, "newmtl m\nKd 0.3\n").unwrap().warnings;
+    let told: Vec<_> = warned.iter().filter(|w| w.what.contains("colours of 4 vertices")).collect();
+    assert!(told.len() == 1 && told[0].place == "line 2", "{warned:?}");
+    let weights = "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n";
+    let warned = read_text(weights, "").unwrap().warnings;
+    assert!(!warned.iter().any(|w| w.what.contains("colours")), "{warned:?}");
+    let none = read_coloured(weights, "vertex_colours = true").unwrap_err().to_string();
+    assert!(none.contains("its vertices have no colours"), "{none}");
+    let both = "vertex_colours = true\nmaterial = 'p'\n[materials.p]\ndiffuse = 0.5";
+    let both = read_coloured(COLOURED, both).unwrap_err().to_string();
+    assert!(both.contains("`vertex_colours` beside a material"), "{both}");
 }
 
 #[test]
@@ -368,11 +394,45 @@ fn degenerate_and_hostile_files() {
 
 #[test]
 fn broken_mtl_is_a_problem_of_the_mtl_file() {
-    let Problems(list) =
-        read_text(TRIANGLE, "Kd 1\nnewmtl m\nKd a b c\nd 2\nNi -1\nillum x\n").unwrap_err();
+    let mtl = "Kd 1\nnewmtl m\nKd a b c\nKs xyz 1 nan\nKe -1\nTf\n";
+    let Problems(list) = read_text(TRIANGLE, mtl).unwrap_err();
     let places: Vec<_> = list.iter().map(|p| p.place.as_str()).collect();
     assert_eq!(places, ["line 1", "line 3", "line 4", "line 5", "line 6"]);
     assert!(list.iter().all(|p| p.file.ends_with("thing.mtl")));
+}
+
+/// Regression: each of these lines refused the whole file.
+#[test]
+fn odd_lines_of_materials_are_told_with_what_is_taken() {
+    for (line, told) in [
+        ("Tf xyz 0.9505 1 1.089", "is read as 1 1 0.9999 in linear Rec. 709"),
+        ("Tf xyz 0.5", "is read as 0.6025"),
+        ("Tf spectral glass.rfl 1.0", "is a spectrum, which is not read: the line is left out"),
+        ("Ke spectral lamp.rfl", "is a spectrum"),
+        ("illum 99", "`illum 99` is no model from 0 to 10: the line is left out"),
+        ("illum glass", "is no model"),
+        ("Ni -1", "`Ni -1` is no index of refraction"),
+        ("d 100", "`d 100` is not from 0 to 1: 1 is taken"),
+        ("d all", "is no number from 0 to 1"),
+    ] {
+        let (body, warnings) = material(&format!("Kd 0.3\n{line}"));
+        let Body::Opaque { front, .. } = body else { panic!("{line}: {body:?}") };
+        assert_eq!(front, Finish::diffuse(Rgb::grey(0.3)), "{line}");
+        let [warning] = warnings.as_slice() else { panic!("{line}: {warnings:?}") };
+        assert!(warning.contains("line 3") && warning.contains(told), "{warning}");
+    }
+    let glass = |lines: &str| match material(lines) {
+        (Body::Dielectric(glass), _) => glass.transmittance,
+        (body, _) => panic!("{lines}: {body:?}"),
+    };
+    // D65 is white, up to the four digits of its numbers.
+    let white = glass("Tf xyz 0.9505 1 1.089\nillum 4\nNi 1.5");
+    assert!((white - Rgb::WHITE).0.iter().all(|c| c.abs() < 1e-3), "{white:?}");
+    // What is left out says nothing: 1 - d passes.
+    assert_eq!(glass("Tf spectral glass.rfl\nillum 4\nNi 1.5\nd 0.25"), Rgb::grey(0.75));
+    // Regression: 0.19999999999999996.
+    let (_, warnings) = material("d 0.8");
+    assert!(warnings[0].contains("transmitting 0.2 0.2 0.2"), "{warnings:?}");
 }
 
 #[test]

@@ -5,7 +5,7 @@
 use isolux::geometry::{Point, Vector};
 use isolux::scene::{Body, LuminaireKind, Scene, SceneParts, UpAxis};
 use isolux::units::Rgb;
-use isolux_formats::{Loaded, Problems, load, rad};
+use isolux_formats::{Loaded, Problems, Reach, load, rad};
 
 const FACE: &str = "polygon f 0 0 9  0 0 0  1 0 0  0 1 0\n";
 
@@ -49,6 +49,32 @@ fn material(type_: &str, arguments: &str) -> (Body, String) {
 fn near(a: f64, b: f64) {
     // A few dozen roundings.
     assert!((a - b).abs() <= 1e-12 * b.abs().max(1.0), "{a} {b}");
+}
+
+/// As `oconv materials.rad room/room.rad` reads them: with the materials of the first, and data beside either.
+#[test]
+fn several_files_are_one_scene() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = dir.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let materials = file("library/materials.rad", "void plastic paint 0 0 5 .5 .5 .5 0 0\n");
+    let room = file("project/room.rad", &format!("paint {FACE}!xform -t 0 0 1 parts/more.rad\n"));
+    file("project/parts/more.rad", &format!("paint {FACE}"));
+    let parts = rad::read_several(&[&materials, &room], Reach::Inside).unwrap().value;
+    assert_eq!((parts.name.as_str(), parts.materials.len()), ("materials", 1));
+    assert_eq!(parts.shapes.iter().map(|shape| shape.triangles.len()).sum::<usize>(), 2);
+    let turned = rad::read_several(&[&room, &materials], Reach::Inside).unwrap_err().to_string();
+    assert!(turned.contains("`paint` is not defined before it is used"), "{turned}");
+    let gone = dir.path().join("gone.rad");
+    let wrong = isolux_formats::load_several(&[&materials, &gone], Reach::Inside).unwrap_err();
+    assert!(wrong.to_string().contains("gone.rad: does not exist"), "{wrong}");
+    let other = dir.path().join("room.obj");
+    let wrong = isolux_formats::load_several(&[&materials, &other], Reach::Inside).unwrap_err();
+    assert!(wrong.to_string().contains("room.obj: is no Radiance file"), "{wrong}");
 }
 
 #[test]
@@ -343,6 +369,17 @@ fn mixtures_count_by_their_mean() {
             told.contains(&format!("line 4: {kind} `x` is read as half `a`, half `b`")),
             "{told}"
         );
+    }
+    // A number is a share, and needs no warning.
+    let text = format!(
+        "void plastic a 0 0 5 .8 .8 .8 0 0\nvoid plastic b 0 0 5 .2 .4 .6 0 0\n\
+         void mixfunc x 4 a b 0.25 . 0 0\nx {FACE}"
+    );
+    let quarter = read_with(&text, &[]).unwrap();
+    assert_eq!(quarter.warnings, []);
+    let front = quarter.value.materials[0].finish(true).unwrap();
+    for (found, due) in front.diffuse.colour.0.iter().zip([0.35, 0.5, 0.65]) {
+        near(*found, due);
     }
     let holed = made("mixfunc", "a void", "").unwrap();
     near(holed.value.materials[0].finish(true).unwrap().diffuse.colour.0[0], 0.8);

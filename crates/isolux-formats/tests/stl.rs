@@ -179,3 +179,18 @@ fn spoilt_files_are_read_or_refused() {
     // Both must happen often, or the changes are too weak or too strong.
     assert!(was_read > 100 && was_refused > 300, "{was_read} read, {was_refused} refused");
 }
+
+/// Regression: what stood in one line was taken for the name of a solid, and text of other kinds for binary.
+#[test]
+fn what_is_no_stl_is_told_in_its_words() {
+    refused(
+        TEXT.replace('\n', " ").as_bytes(),
+        "line 1: `facet` stands in the line of `solid`; each statement takes a line of its own",
+    );
+    let facets_in_a_line = TEXT.replace("\nouter", " outer").replace("\nvertex", " vertex");
+    refused(facets_in_a_line.as_bytes(), "line 2: `vertex` stands in the line of `facet`");
+    refused(b"# Blender\nv 0 0 0\nf 1 1 1\n", "line 1: is text that does not begin with `solid`");
+    refused(&[0x89, b'P', b'N', b'G', 0, 0], "6 bytes are neither text nor binary STL");
+    // A solid whose name holds the word is none of these.
+    assert_eq!(read(TEXT.replace("pyramid", "facet").as_bytes()).unwrap().value.shapes.len(), 2);
+}

@@ -1,6 +1,8 @@
 //! Luminaires that light nothing.
 
+use super::around::{all_around, extent_m};
 use super::finding::Finding;
+use super::outside::is_outside;
 use isolux::geometry::{Direction, Point, Ray, Vector};
 use isolux::scene::{Body, Finish, Luminaire, LuminaireKind, Material, Scene};
 
@@ -34,6 +36,7 @@ enum Trouble {
     LightsMirrorsAlone,
     ShutIn,
     ShutOut,
+    Outside,
 }
 
 /// What a luminaire sees in one direction.
@@ -101,6 +104,8 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
         Some(Trouble::LightsNothing)
     } else if seen().all(|s| s.black_back) {
         Some(Trouble::LightsBlackBacks)
+    } else if seen().all(|s| s.back) && is_outside(scene, luminaire) {
+        Some(Trouble::Outside)
     } else if looks.iter().all(|(_, l)| l.as_ref().is_some_and(|s| s.mirrors_alone)) {
         Some(Trouble::LightsMirrorsAlone)
     } else if far_cd <= LEAKS * all_cd && is_shut_in() {
@@ -170,24 +175,6 @@ fn ends_among_mirrors(scene: &Scene, mut from: Point, mut direction: Direction) 
     true
 }
 
-fn extent_m(scene: &Scene) -> f64 {
-    scene.bvh().mesh().bounds().map_or(0.0, |(low, high)| (high - low).length())
-}
-
-/// The 26 neighbours of the middle of a cube of cubes, away from edges of a model on a grid.
-fn all_around() -> Vec<Direction> {
-    let steps = [-1.0, 0.0, 1.0];
-    let mut directions = Vec::new();
-    for x in steps {
-        for y in steps {
-            for z in steps {
-                directions.extend(Vector::new(x + 0.013, y + 0.007, z - 0.011).direction());
-            }
-        }
-    }
-    directions
-}
-
 fn finding(luminaire: &Luminaire, trouble: Trouble) -> Finding {
     let (what, remedy) = match trouble {
         Trouble::NoFlux => ("gives no light", "raise its intensity or its dimming, or remove it"),
@@ -205,9 +192,13 @@ fn finding(luminaire: &Luminaire, trouble: Trouble) -> Finding {
             "reaches only black backs and emitting surfaces",
             "what stands for the sky keeps the sun out: leave it open on that side, or away",
         ),
+        Trouble::Outside => (
+            "lights only the outside of closed rooms",
+            "it lies outside: move it in, or give the room an opening; check `up` and units where it should be inside",
+        ),
         Trouble::LightsBlackBacks => (
             "lights only backs of one-sided surfaces",
-            "it is inside a solid, or the surfaces around it are turned inside out: move it or \
+            "it is inside a solid or outside of the room, or the surfaces around it are turned inside out: move it or \
              flip them",
         ),
     };
@@ -331,6 +322,19 @@ mod tests {
             triangles: vec![[0, 1, 2]],
             ..Shape::default()
         };
+        let moved = |mut shape: Shape, x: f64| {
+            shape.positions.iter_mut().for_each(|p| p[0] += x);
+            shape
+        };
+        let open = |mut shape: Shape| {
+            shape.triangles.truncate(11);
+            shape
+        };
+        let ground = || Shape {
+            positions: vec![[-90.0, -90.0, -5.0], [90.0, -90.0, -5.0], [0.0, 180.0, -5.0]],
+            triangles: vec![[0, 1, 2]],
+            ..Shape::default()
+        };
         for (shapes, intensity_cd, two_sided, expected) in [
             (vec![room()], 1.0, false, None),
             (vec![room()], 0.0, false, Some(Trouble::NoFlux)),
@@ -342,6 +346,19 @@ mod tests {
             (vec![room(), cube(1e4, true)], 1.0, true, None),
             (vec![room(), cube(1e4, false)], 1.0, true, None),
             (vec![far()], 1.0, true, Some(Trouble::LightsNothing)),
+            // The luminaire is beside the room.
+            (vec![moved(room(), 5.5)], 1.0, true, Some(Trouble::Outside)),
+            (vec![moved(room(), 5.5)], 1.0, false, Some(Trouble::LightsBlackBacks)),
+            (
+                vec![moved(room(), 5.5), moved(cube(1.0, false), 8.0)],
+                1.0,
+                true,
+                Some(Trouble::Outside),
+            ),
+            // Of a solid it lights what there is to light, and a room with a window it may light inside.
+            (vec![moved(cube(5.0, false), 5.5)], 1.0, true, None),
+            (vec![moved(open(room()), 5.5)], 1.0, true, None),
+            (vec![moved(room(), 5.5), ground()], 1.0, true, None),
         ] {
             assert_eq!(trouble_of(shapes, intensity_cd, two_sided), expected);
         }

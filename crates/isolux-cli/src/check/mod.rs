@@ -1,11 +1,13 @@
 //! `isolux check`: audit of a scene before a run.
 
+mod around;
 mod borders;
 mod energy;
 mod extent;
 mod finding;
 mod lamps;
 mod light;
+mod outside;
 
 use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;

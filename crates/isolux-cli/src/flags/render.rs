@@ -1,5 +1,6 @@
 //! Arguments of `render`.
 
+use super::solve::FURTHER_HELP;
 use crate::appearance::{self, ExposureChoice, ProfileChoice, WhiteChoice};
 use crate::quantity;
 use clap::{Args, ValueEnum};
@@ -52,6 +53,8 @@ pub(crate) struct RenderFlags {
     /// The map (.glb), or a scene
     #[arg(value_name = "MAP|SCENE")]
     pub map: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
     #[command(flatten)]
     pub eye: EyeFlags,
     /// Where to write: a picture (.png), or luminance in cd/m2 (.exr, .hdr). Several files of one view: -o again. With several

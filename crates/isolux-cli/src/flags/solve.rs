@@ -6,6 +6,10 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::time::Duration;
 
+/// What further files are.
+pub(super) const FURTHER_HELP: &str =
+    "Further Radiance files of the same scene, read in this order, as oconv does";
+
 /// What a scene can be.
 pub(super) const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, .ply, .rad, .stl, .xml, scene.toml), builtin:cube, builtin:sphere, builtin:hall or a \
      variant of it (builtin:hall,triangles=1e6,luminaires=100), builtin:truth-00 to builtin:truth-59";
@@ -19,6 +23,8 @@ pub(super) const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, .ply, .
 pub(crate) struct SolveFlags {
     #[arg(help = SCENE_HELP)]
     pub scene: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
     /// Where to write the map (.glb)
     #[arg(short, long, value_name = "MAP.glb", required_unless_present = "dry_run")]
     pub output: Option<PathBuf>,
@@ -94,6 +100,8 @@ This is `solve` and `export` in one, and no map is kept: for long runs that may 
 pub(crate) struct BakeFlags {
     #[arg(help = SCENE_HELP)]
     pub scene: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
     /// Where to write: .glb, or the lightmap alone as .exr, .ktx2
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,

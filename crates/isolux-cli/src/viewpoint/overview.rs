@@ -19,7 +19,7 @@ pub(super) struct Gaze {
 
 /// A gaze by its axes, or what is wrong with them.
 pub(super) fn gaze(towards: Vector, up: Vector) -> Result<Gaze, String> {
-    let direction = towards.direction().ok_or("the eye is where it looks")?;
+    let direction = towards.direction().ok_or("the eye looks nowhere")?;
     let up = up.direction().ok_or("up has no direction")?;
     if up.dot(direction).abs() > PARALLEL_COS {
         return Err("the view goes straight along up".to_owned());

@@ -138,7 +138,8 @@ impl Options {
     fn view(&self) -> Result<View, String> {
         let vector = |[x, y, z]: [f64; 3]| Vector::new(x, y, z);
         let [x, y, z] = self.at;
-        let Gaze { direction, up } = gaze(vector(self.towards), vector(self.up))?;
+        let Gaze { direction, up } = gaze(vector(self.towards), vector(self.up))
+            .map_err(|problem| format!("{problem}; give another -vd, or another -vu"))?;
         let projection = self.projection()?;
         Ok(View { position: Point::new(x, y, z), direction, up, projection })
     }
@@ -213,7 +214,7 @@ mod tests {
         for (text, word) in [
             ("rvu -vts -vp 0 0 0", "-vts"),
             ("rvu -vtv -vp 0 x 0", "`x`"),
-            ("rvu -vtv -vd 0 0 1 -vu 0 0 1", "up"),
+            ("rvu -vtv -vd 0 0 1 -vu 0 0 1", "along up; give another -vd, or another -vu"),
             ("rvu -vth -vh 190", "up to 180"),
             ("rvu -vtc -vv 180", "less than 180"),
             ("rvu -vtl -vv -3", "a length above 0"),

@@ -7,6 +7,7 @@ mod bad_input;
 mod caches;
 mod dark;
 mod days;
+mod degenerate;
 mod engines;
 mod errors;
 mod grids;
@@ -22,6 +23,7 @@ mod ran;
 mod readme;
 mod results;
 mod rooms;
+mod several;
 mod tables;
 mod views;
 #[cfg(unix)]

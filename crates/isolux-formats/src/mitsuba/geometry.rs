@@ -88,6 +88,7 @@ impl Files {
                         unit_is_known: true,
                         is_replaced: &is_replaced,
                         materials: obj::Materials::AsMeant,
+                        vertex_colours: false,
                         reach,
                     },
                 )

@@ -19,6 +19,7 @@ mod scope;
 mod sensor;
 mod spectral;
 mod spectrum;
+mod spectrum_file;
 mod substances;
 mod surroundings;
 mod texture;

@@ -2,6 +2,7 @@
 
 use super::limits;
 use super::record::Element;
+use super::spectrum_file;
 use crate::lines::{At, Notes};
 use crate::reach::Root;
 use crate::{Reach, product_file, source};
@@ -112,7 +113,10 @@ impl Parser<'_> {
                 self.notes.problem(&at, what, "nest them less");
                 return None;
             }
-            let attributes = self.attributes(child, &at);
+            let mut attributes = self.attributes(child, &at);
+            if child.tag_name().name() == "spectrum" {
+                self.read_spectrum(&mut attributes, &at);
+            }
             let element = |children| Element {
                 tag: lower_case(child.tag_name().name()),
                 attributes,
@@ -178,6 +182,31 @@ impl Parser<'_> {
         if !name.is_empty() && !self.defaults.iter().any(|(known, _)| known == name) {
             let place = self.defaults.partition_point(|(known, _)| known.len() >= name.len());
             self.defaults.insert(place, (name.to_owned(), value.to_owned()));
+        }
+    }
+
+    /// Puts what the file of a spectrum says in the place of its name.
+    fn read_spectrum(&mut self, attributes: &mut Vec<(String, String)>, at: &At) {
+        let Some(place) = attributes.iter().position(|(name, _)| name == "filename") else {
+            return;
+        };
+        let name = attributes[place].1.clone();
+        let read = self.root.file(&name).map_err(|why| why.explain(&name));
+        let pairs = read.and_then(|path| {
+            let most = self.bytes_left.min(limits::ATTRIBUTE_BYTES as u64);
+            let text = source::read_text(&path, most)
+                .map_err(|problem| (format!("`{name}` {}", problem.what), problem.remedy))?;
+            self.bytes_left -= text.len() as u64;
+            spectrum_file::pairs(&text).map_err(|(line, what)| {
+                (format!("`{name}`: line {line}: {what}"), spectrum_file::REMEDY.to_owned())
+            })
+        });
+        match pairs {
+            Ok(pairs) => {
+                attributes[place] = ("value".to_owned(), pairs);
+                attributes.retain(|(name, value)| name != "type" || value != "irregular");
+            }
+            Err((what, remedy)) => self.notes.problem(at, what, remedy),
         }
     }
 

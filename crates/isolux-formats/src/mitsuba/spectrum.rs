@@ -44,10 +44,6 @@ pub(super) fn colour(property: &Element, of: Of) -> Result<Rgb, Wrong> {
 fn spectrum(property: &Element, of: Of) -> Result<Rgb, Wrong> {
     let label = format!("spectrum `{}`", property.slot());
     let (kind, value) = (property.kind(), property.attribute("value").unwrap_or_default());
-    if property.attribute("filename").is_some() {
-        let what = format!("{label}: spectra in files of their own are not read");
-        return Err((what, "write its values into the scene, or give its colour as `rgb`"));
-    }
     let number_of = |name: &str, usual| Ok(float(property, name)?.unwrap_or(usual));
     match kind {
         "d65" => Ok(Rgb::grey(number_of("scale", 1.0)?)),

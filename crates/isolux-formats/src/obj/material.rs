@@ -8,16 +8,16 @@ use crate::findings::Findings;
 use crate::other_case::Listings;
 use crate::picture::Room;
 use crate::reach::{Root, directory_of};
-use crate::{Loaded, Problem, Problems, source};
+use crate::{Loaded, Problem, Problems, short, source};
 use isolux::scene::{Body, Dielectric, Finish, Material, Texture};
 use isolux::units::Rgb;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 /// Bytes of all libraries of a file.
 const MOST_BYTES: u64 = 64 << 20;
 /// What a surface reflects of which nothing is known.
-const UNKNOWN_REFLECTANCE: f64 = 0.5;
+pub(super) const UNKNOWN_REFLECTANCE: f64 = 0.5;
 /// The material of faces without one.
 const UNNAMED: &str = "unnamed";
 /// Window glass.
@@ -30,6 +30,8 @@ pub(super) struct Materials {
     pub(super) textures: Vec<Texture>,
     /// Index of the material of every part.
     pub(super) of_part: Vec<u32>,
+    /// Those of which nothing is known.
+    pub(super) unknown: HashSet<u32>,
 }
 
 /// Reads the material libraries of a file and makes materials of those it uses and nothing replaces.
@@ -136,6 +138,7 @@ impl Maker<'_> {
             return index;
         }
         let known = key.as_ref().and_then(|name| self.known.remove(name));
+        let is_unknown = known.is_none();
         let material = match known {
             Some((file, record)) => {
                 let mut own = Findings::new(&file);
@@ -143,17 +146,18 @@ impl Maker<'_> {
                 findings.absorb(own.finish(material)).unwrap_or_else(|| unknown(key.as_deref()))
             }
             None => {
-                let (at, what) = match named {
-                    Some(n) => (place(n.line), format!("material `{}` is not known", n.name)),
-                    None => (String::new(), "some faces have no material".to_owned()),
-                };
-                let what = format!("{what}: taken as grey {UNKNOWN_REFLECTANCE}");
-                findings.warning(at, what, "define it in the file that `mtllib` names");
+                // Colours of vertices tell what such faces reflect.
+                if !self.reading.vertex_colours {
+                    warn_of_unknown(named, findings);
+                }
                 unknown(key.as_deref())
             }
         };
         let index = self.push(material);
         self.made.insert(key, index);
+        if is_unknown {
+            self.materials.unknown.insert(index);
+        }
         index
     }
 
@@ -224,6 +228,15 @@ impl Maker<'_> {
     }
 }
 
+fn warn_of_unknown(named: Option<&Named>, findings: &mut Findings) {
+    let (at, what) = match named {
+        Some(n) => (place(n.line), format!("material `{}` is not known", n.name)),
+        None => (String::new(), "some faces have no material".to_owned()),
+    };
+    let what = format!("{what}: taken as grey {UNKNOWN_REFLECTANCE}");
+    findings.warning(at, what, "define it in the file that `mtllib` names");
+}
+
 fn unknown(name: Option<&str>) -> Material {
     let finish = Finish::diffuse(Rgb::grey(UNKNOWN_REFLECTANCE));
     Material::two_sided(name.unwrap_or(UNNAMED), finish)
@@ -246,20 +259,28 @@ fn dielectric(
     let least = if materials == meaning::Materials::AsWritten { 0.0 } else { 1.0 };
     let (ior, instead) = match record.ni {
         Some(ni) if ni > least => (ni, String::new()),
-        Some(ni) => (USUAL_INDEX, format!(" (instead of Ni {ni}, which would not refract)")),
+        Some(ni) => {
+            (USUAL_INDEX, format!(" (instead of Ni {}, which would not refract)", short(ni, 4)))
+        }
         None => (USUAL_INDEX, String::new()),
     };
     let kind = if thin { "a thin pane" } else { "solid glass" };
-    let [r, g, b] = transmittance.0;
+    let through = shares(transmittance);
     findings.warning(
         place(record.line),
         format!(
-            "material `{}` is read as {kind} of index {ior}{instead}, transmitting {r} {g} {b}",
-            record.name
+            "material `{}` is read as {kind} of index {}{instead}, transmitting {through}",
+            record.name,
+            short(ior, 4)
         ),
         "assign a material of scene.toml where this is not meant",
     );
     Some(Dielectric { ior, transmittance, thin })
+}
+
+/// Three channels in a message.
+fn shares(colour: Rgb) -> String {
+    colour.0.map(|channel| short(channel, 4)).join(" ")
 }
 
 /// Without its picture, which alone tells what is reflected where there is no Kd beside it.
@@ -276,7 +297,7 @@ fn finish(record: &MtlMaterial, is_textured: bool, findings: &mut Findings) -> F
     });
     let diffuse = written.map(|c| c.min(1.0));
     if diffuse != written {
-        say(format!("Kd {:?} is cut at 1", written.0), "write Kd as a share of the light");
+        say(format!("Kd {} is cut at 1", shares(written)), "write Kd as a share of the light");
     }
     let mut finish = Finish::diffuse(diffuse);
     let ks = record.ks.unwrap_or(Rgb::BLACK);
@@ -285,13 +306,12 @@ fn finish(record: &MtlMaterial, is_textured: bool, findings: &mut Findings) -> F
         finish.mirror = Rgb(std::array::from_fn(|k| ks.0[k].min(room.0[k])));
         if finish.mirror != ks {
             say(
-                format!("mirror Ks {:?} is cut so that Kd + Ks is at most 1", ks.0),
+                format!("mirror Ks {} is cut so that Kd + Ks is at most 1", shares(ks)),
                 "lower Ks or Kd",
             );
         }
-        let [r, g, b] = finish.mirror.0;
         say(
-            format!("read as a mirror that reflects {r} {g} {b}, beside its Kd"),
+            format!("read as a mirror that reflects {}, beside its Kd", shares(finish.mirror)),
             "assign a material of scene.toml where this is not meant",
         );
     }

@@ -12,6 +12,9 @@
 //! | `illum` 6, 7 | solid glass of index `Ni`, transmitting `Tf` |
 //! | `illum` 4, 9, or `d` below 1 | a thin pane transmitting `Tf`, or else `1 - d` |
 //!
+//! Colours may be given as `xyz`; as `spectral` they are left out, as is every other line that says nothing here, with a warning.
+//! Colours of vertices are read as reflectance of faces without a material, only where a `scene.toml` asks for them.
+//!
 //! What would make most coloured surfaces of a file invisible by this letter is read as opaque, with a
 //! warning, because no writer means it; `meaning.rs` says what. A library that is missing is looked for
 //! in other cases of letters, and then under the name of the OBJ file.
@@ -25,13 +28,14 @@ mod lines;
 mod material;
 mod meaning;
 mod mtl;
+mod paint;
 mod parse;
 mod reading;
 mod record;
 mod resolve;
 
 use crate::findings::Findings;
-use crate::{Loaded, Problems, Reach, source};
+use crate::{Loaded, Problems, Reach, counted, source};
 use isolux::scene::SceneParts;
 pub use meaning::Materials;
 pub(crate) use reading::Reading;
@@ -50,7 +54,14 @@ pub fn read_with(
     materials: Materials,
     reach: Reach,
 ) -> Result<Loaded<SceneParts>, Problems> {
-    read_as(path, &Reading { unit_is_known: false, is_replaced: &|_| false, materials, reach })
+    let alone = Reading {
+        unit_is_known: false,
+        is_replaced: &|_| false,
+        materials,
+        vertex_colours: false,
+        reach,
+    };
+    read_as(path, &alone)
 }
 
 /// Reads an OBJ file of which something is known.
@@ -59,6 +70,7 @@ pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<ScenePart
     let mut findings = Findings::new(path);
     let file = parse::parse(&text, &mut findings);
     drop(text);
+    tell_of_colours(&file, reading, &mut findings);
     let materials = material::read_libraries(&file, reading, &mut findings);
     if findings.has_problems() {
         return findings.finish(SceneParts::default());
@@ -66,6 +78,23 @@ pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<ScenePart
     if !reading.unit_is_known {
         resolve::warn_of_units(&file, &mut findings);
     }
-    let parts = resolve::resolve(&file, materials, &mut findings);
+    let parts = resolve::resolve(&file, materials, reading, &mut findings);
     findings.finish(parts)
+}
+
+/// A warning of colours that nobody asks for, or a problem where there are none of those asked for.
+fn tell_of_colours(file: &record::ObjFile, reading: &Reading, findings: &mut Findings) {
+    match (file.colours.count, reading.vertex_colours) {
+        (0, true) => {
+            findings.problem("", "its vertices have no colours", "remove `vertex_colours`");
+        }
+        (1.., false) => {
+            let vertices = counted(file.colours.count, "vertex", "vertices");
+            let what = format!("the colours of {vertices} are not used");
+            let remedy = "to read them as diffuse reflectance of faces without a material, refer to the file from a \
+                          scene.toml with `vertex_colours = true`";
+            findings.warning(lines::place(file.colours.first_line), what, remedy);
+        }
+        _ => {}
+    }
 }

@@ -23,12 +23,6 @@ pub(super) fn parse(text: &str, findings: &mut Findings) -> ObjFile {
             "only polygons with `v`, `vt`, `vn`, `f` are read; convert the rest to polygons",
         );
     }
-    if let Some((line, count)) = parser.coloured {
-        let what = format!("the colours of {} are not used", counted(count, "vertex", "vertices"));
-        let remedy = "save the mesh as PLY and set `vertex_colours = true` in a scene.toml, which reads \
-                      them as reflectance";
-        findings.warning(super::lines::place(line), what, remedy);
-    }
     parser.file
 }
 
@@ -51,21 +45,13 @@ struct Parser {
     current: Option<usize>,
     part_of: HashMap<(String, Option<String>), usize>,
     unused: BTreeMap<String, (usize, usize)>,
-    /// The line of the first vertex with a colour, and the number of all.
-    coloured: Option<(usize, usize)>,
 }
 
 impl Parser {
     fn take(&mut self, statement: &Statement) -> Result<(), Wrong> {
         let (keyword, rest) = statement.split();
         match keyword {
-            "v" => {
-                // Three numbers more, or four with a weight, are a colour.
-                if rest.split_whitespace().nth(5).is_some() {
-                    self.coloured.get_or_insert((statement.line, 0)).1 += 1;
-                }
-                keep(&mut self.file.positions, fixed(rest))?;
-            }
+            "v" => self.vertex(rest, statement.line)?,
             "vn" => keep(&mut self.file.normals, fixed(rest))?,
             "vt" => keep(&mut self.file.uvs, texture_coordinates(rest))?,
             "f" => self.face(rest, statement.line)?,
@@ -83,6 +69,15 @@ impl Parser {
             _ => self.unused.entry(keyword.to_owned()).or_insert((statement.line, 0)).1 += 1,
         }
         Ok(())
+    }
+
+    /// A place. Of more numbers than four the last three are a colour; one alone is a weight.
+    fn vertex(&mut self, rest: &str, line: usize) -> Result<(), Wrong> {
+        let list = numbers(rest).unwrap_or_default();
+        if let (6.., Some(&colour)) = (list.len(), list.last_chunk()) {
+            self.file.colours.push(self.file.positions.len(), colour, line);
+        }
+        keep(&mut self.file.positions, first_three(&list, rest))
     }
 
     fn rename(&mut self, object: String, group: String) {
@@ -169,10 +164,14 @@ fn keep<T: Default>(list: &mut Vec<T>, read: Result<T, Wrong>) -> Result<(), Wro
 }
 
 fn fixed(rest: &str) -> Result<[f64; 3], Wrong> {
-    // Vertices may be followed by a weight or a colour.
-    numbers(rest)
-        .and_then(|list| list.first_chunk().copied())
-        .ok_or_else(|| wrong(format!("`{rest}` is not three finite numbers"), "write x y z"))
+    first_three(&numbers(rest).unwrap_or_default(), rest)
+}
+
+fn first_three(list: &[f64], rest: &str) -> Result<[f64; 3], Wrong> {
+    let remedy = "write x y z";
+    list.first_chunk()
+        .copied()
+        .ok_or_else(|| wrong(format!("`{rest}` is not three finite numbers"), remedy))
 }
 
 fn texture_coordinates(rest: &str) -> Result<[f64; 2], Wrong> {

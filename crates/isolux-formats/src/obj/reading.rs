@@ -11,6 +11,8 @@ pub(crate) struct Reading<'a> {
     pub(crate) is_replaced: &'a dyn Fn(&str) -> bool,
     /// Whether materials are read as meant.
     pub(crate) materials: Materials,
+    /// Whether faces without a material reflect the colours of their vertices.
+    pub(crate) vertex_colours: bool,
     /// Which files it may name.
     pub(crate) reach: Reach,
 }

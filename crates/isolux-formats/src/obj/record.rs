@@ -6,12 +6,47 @@ use isolux::units::Rgb;
 #[derive(Debug, Default)]
 pub(super) struct ObjFile {
     pub(super) positions: Vec<[f64; 3]>,
+    /// Colours that stand behind positions.
+    pub(super) colours: Colours,
     /// `v` upwards, as written.
     pub(super) uvs: Vec<[f64; 2]>,
     pub(super) normals: Vec<[f64; 3]>,
     /// What `mtllib` names.
     pub(super) libraries: Vec<Named>,
     pub(super) parts: Vec<Part>,
+}
+
+/// Colours of vertices, as written.
+#[derive(Debug, Default)]
+pub(super) struct Colours {
+    /// By vertex, up to the last that has one.
+    list: Vec<Option<[f32; 3]>>,
+    largest: f32,
+    /// The line of the first.
+    pub(super) first_line: usize,
+    pub(super) count: usize,
+}
+
+impl Colours {
+    /// Takes the colour of a vertex.
+    pub(super) fn push(&mut self, vertex: usize, colour: [f64; 3], line: usize) {
+        if self.count == 0 {
+            self.first_line = line;
+        }
+        self.count += 1;
+        let colour = colour.map(|c| c as f32);
+        self.largest = colour.into_iter().fold(self.largest, f32::max);
+        self.list.resize(vertex, None);
+        self.list.push(Some(colour));
+    }
+
+    /// The sRGB codes of a vertex. Programs write shares of the code range; where a number of the file is above 1, codes.
+    pub(super) fn codes(&self, vertex: u32) -> Option<[u8; 3]> {
+        let scale = if self.largest > 1.0 { 1.0 } else { 255.0 };
+        let colour = self.list.get(vertex as usize).copied().flatten()?;
+        // Casts keep within the range.
+        Some(colour.map(|c| (scale * c).round() as u8))
+    }
 }
 
 /// The faces of one object or group with one material.

@@ -3,6 +3,8 @@
 use super::copies::{Copies, Places};
 use super::lines::place;
 use super::material::Materials;
+use super::paint;
+use super::reading::Reading;
 use super::record::{Corner, ObjFile, Part};
 use crate::extent::IMPLAUSIBLE_EXTENT_M;
 use crate::findings::Findings;
@@ -12,11 +14,21 @@ use isolux::scene::{SceneParts, Shape, UpAxis};
 use std::collections::HashMap;
 
 /// The scene of a file whose indices are all valid.
-pub(super) fn resolve(file: &ObjFile, materials: Materials, findings: &mut Findings) -> SceneParts {
+pub(super) fn resolve(
+    file: &ObjFile,
+    mut materials: Materials,
+    reading: &Reading,
+    findings: &mut Findings,
+) -> SceneParts {
     let mut shapes = Vec::with_capacity(file.parts.len());
     let places = Places::of(file);
-    for (part, &material) in file.parts.iter().zip(&materials.of_part) {
-        shapes.push(Builder::new(file, part, &places).shape(material, findings));
+    for (part, material) in file.parts.iter().zip(materials.of_part.clone()) {
+        let (shape, vertices) = Builder::new(file, part, &places).shape(material, findings);
+        let is_painted = reading.vertex_colours && materials.unknown.contains(&material);
+        shapes.push(match is_painted {
+            true => paint::painted(shape, &vertices, file, &mut materials, findings),
+            false => shape,
+        });
     }
     if shapes.iter().all(|shape| shape.triangles.is_empty()) {
         findings.problem("", "there are no faces", "export polygons");
@@ -85,7 +97,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn shape(mut self, material: u32, findings: &mut Findings) -> Shape {
+    /// The shape, and the corners of the file that its vertices are.
+    fn shape(mut self, material: u32, findings: &mut Findings) -> (Shape, Vec<Corner>) {
         let (mut crossed, mut copied, mut flat) = (Vec::new(), Vec::new(), Vec::new());
         for face in 0..self.part.faces.len() {
             let line = self.part.faces[face].line;
@@ -107,7 +120,7 @@ impl<'a> Builder<'a> {
         warn_of_faces(&copied, what, "remove it; every face has both sides", findings);
         let what = "the face has no area and is left out";
         warn_of_faces(&flat, what, "remove it; its corners lie on one line", findings);
-        Shape {
+        let shape = Shape {
             name: self.part.name.clone(),
             positions: self
                 .vertices
@@ -119,7 +132,8 @@ impl<'a> Builder<'a> {
             triangles: self.triangles,
             material,
             ..Shape::default()
-        }
+        };
+        (shape, self.vertices)
     }
 
     fn add_face(&mut self, face: usize) -> Added {

@@ -5,6 +5,7 @@ use super::material::{self, Made};
 use super::mixture;
 use super::modifiers::{Definition, Modifiers, Named};
 use super::record::{Kind, kind_of};
+use super::words::number;
 use crate::lines::{At, Notes};
 use isolux::scene::Body;
 use isolux::units::Rgb;
@@ -66,7 +67,10 @@ fn look_at_depth(
     Some(look)
 }
 
-/// The mean of what a mixture mixes; `None` after a problem.
+/// The share of the first of two materials where only a function would tell it.
+const HALF: f64 = 0.5;
+
+/// What a mixture mixes, by the share that it gives as a number, else half of each; `None` after a problem.
 fn mixed(
     definition: &Definition,
     modifiers: &Modifiers,
@@ -99,10 +103,16 @@ fn mixed(
     };
     let (foreground, background) = (side(definition.target)?, side(definition.background)?);
     let has_hole = [&foreground, &background].contains(&&Made::Invisible);
-    let made = match mixture::mean(foreground, background) {
+    let is_function = object.type_ == "mixfunc";
+    let given = object.strings.get(2).filter(|_| is_function).and_then(|word| number(word));
+    let share = given.filter(|share| (0.0..=1.0).contains(share));
+    let made = match mixture::mixed(foreground, background, share.unwrap_or(HALF)) {
         Ok(made) => made,
         Err(what) => return refuse(notes, what),
     };
+    if share.is_some() && !has_hole {
+        return Some(made);
+    }
     let what = match has_hole {
         true => format!("{label} has holes, which are closed: it mixes `{one}` and `{other}`"),
         false => {

@@ -18,6 +18,7 @@ mod luminaires;
 mod material;
 mod mixture;
 mod modifiers;
+mod named_files;
 mod parse;
 mod reader;
 mod record;
@@ -54,9 +55,20 @@ pub fn read_with(path: &Path, reach: Reach) -> Result<Loaded<SceneParts>, Proble
     read_as(path, &Reading { unit_is_known: false, is_replaced: &|_| false, reach })
 }
 
+/// Reads a scene that several files make up, in their order, as `oconv` does: materials of one hold in those after it.
+pub fn read_several(paths: &[&Path], reach: Reach) -> Result<Loaded<SceneParts>, Problems> {
+    read_all(paths, &Reading { unit_is_known: false, is_replaced: &|_| false, reach })
+}
+
 /// Reads a scene of which something is known.
 pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<SceneParts>, Problems> {
-    let (parts, mut notes) = Reader::new(path, reading.is_replaced, reading.reach).read(path);
+    read_all(&[path], reading)
+}
+
+fn read_all(paths: &[&Path], reading: &Reading) -> Result<Loaded<SceneParts>, Problems> {
+    let first = paths.first().copied().unwrap_or(Path::new(""));
+    let reader = Reader::new(first, reading.is_replaced);
+    let (parts, mut notes) = reader.read(paths, reading.reach);
     let findings = notes.findings();
     let is_empty = parts.shapes.is_empty() && parts.luminaires.is_empty();
     if is_empty && !findings.has_problems() {

@@ -8,6 +8,7 @@ use super::look::{Look, look};
 use super::luminaires;
 use super::material::Made;
 use super::modifiers::{Modifiers, Named};
+use super::named_files::named_file;
 use super::parse::parse;
 use super::record::{Item, Kind, Object, kind_of};
 use super::tables::Tables;
@@ -26,7 +27,8 @@ use std::rc::Rc;
 
 /// The scene so far, and the files that were read for it.
 pub(super) struct Reader<'a> {
-    root: Root,
+    /// The folders of the files that make up the scene, each once.
+    roots: Vec<Root>,
     is_replaced: &'a dyn Fn(&str) -> bool,
     notes: Notes,
     files: HashMap<PathBuf, Rc<[Item]>>,
@@ -46,9 +48,9 @@ pub(super) struct Reader<'a> {
 type Going = Option<()>;
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(path: &Path, is_replaced: &'a dyn Fn(&str) -> bool, reach: Reach) -> Self {
+    pub(super) fn new(path: &Path, is_replaced: &'a dyn Fn(&str) -> bool) -> Self {
         Self {
-            root: Root::of(path, reach),
+            roots: Vec::new(),
             is_replaced,
             notes: Notes::new(path),
             files: HashMap::new(),
@@ -64,12 +66,21 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads a file and all it names.
-    pub(super) fn read(mut self, path: &Path) -> (SceneParts, Notes) {
-        let at = At { file: path.into(), line: 1 };
-        let _ = self.file(path, &Frame::world(), &at);
-        let root = self.root.clone();
-        self.tables.finish(&self.modifiers, &root, &mut self.builder, &mut self.notes);
+    /// Reads files one after the other, and all they name; the scene has the name of the first.
+    pub(super) fn read(mut self, paths: &[&Path], reach: Reach) -> (SceneParts, Notes) {
+        for path in paths {
+            let root = Root::of(path, reach);
+            if self.roots.iter().all(|known| known.folder() != root.folder()) {
+                self.roots.push(root);
+            }
+        }
+        for path in paths {
+            let at = At { file: (*path).into(), line: 1 };
+            if self.file(path, &Frame::world(), &at).is_none() {
+                break;
+            }
+        }
+        self.tables.finish(&self.modifiers, &self.roots, &mut self.builder, &mut self.notes);
         if let Some(at) = &self.first_light {
             let what = format!(
                 "radiances are read as luminances of {EFFICACY_LM_W} lm/W: 179 (0.265 red + 0.670 green + \
@@ -82,7 +93,8 @@ impl<'a> Reader<'a> {
                                           were divided by 179",
             );
         }
-        let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
+        let stem = paths.first().and_then(|path| path.file_stem());
+        let name = stem.map_or_else(String::new, |s| s.to_string_lossy().into());
         (self.builder.into_parts(name), self.notes)
     }
 
@@ -222,13 +234,18 @@ impl<'a> Reader<'a> {
 
     /// A file named in another, relative to it or to the scene.
     fn path_of(&self, name: &str, file: &Path) -> Result<PathBuf, Unreachable> {
-        let beside = self.root.file_beside(directory_of(file), name);
-        beside.or_else(|_| self.root.file(name))
+        named_file(&self.roots, directory_of(file), name)
     }
 
     fn ies(&mut self, command: &IesCommand, path: &Path, at: &At, frame: &Frame) -> Going {
         if !self.photometry.contains_key(path) {
-            let read = self.notes.findings().absorb(luminaires::read_ies(path));
+            let read = luminaires::read_ies(path);
+            if read.is_err() {
+                let what =
+                    format!("`{}` cannot be used, for the reason that follows", command.file);
+                self.notes.problem(at, what, "mend it, or name another file");
+            }
+            let read = self.notes.findings().absorb(read);
             self.photometry.insert(path.to_owned(), read);
         }
         if command.looks_up_lamp {

@@ -5,6 +5,7 @@ use super::limits;
 use super::look::Look;
 use super::luminaires::{self, Middle, middle};
 use super::modifiers::Modifiers;
+use super::named_files::named_file;
 use super::table::{self, Half, Table};
 use super::tessellate::area;
 use crate::lines::Notes;
@@ -56,14 +57,14 @@ impl Tables {
     pub(super) fn finish(
         &self,
         modifiers: &Modifiers,
-        root: &Root,
+        roots: &[Root],
         builder: &mut Builder,
         notes: &mut Notes,
     ) {
         for light in &self.lights {
             let definition = modifiers.get(light.definition);
             let label = format!("brightdata `{}`", definition.object.name);
-            if let Err(what) = light.make(modifiers, root, builder) {
+            if let Err(what) = light.make(modifiers, roots, builder) {
                 let remedy = "write it by ies2rad again, or use `!ies2rad FILE.ies`";
                 notes.problem(&definition.at, format!("{label}: {what}"), remedy);
                 continue;
@@ -80,16 +81,14 @@ impl Light {
     fn make(
         &self,
         modifiers: &Modifiers,
-        root: &Root,
+        roots: &[Root],
         builder: &mut Builder,
     ) -> Result<(), String> {
         let definition = modifiers.get(self.definition);
         let table = table::parse(definition)?;
         let base = directory_of(&definition.at.file);
-        let path = root
-            .file_beside(base, &table.file)
-            .or_else(|_| root.file(&table.file))
-            .map_err(|why| why.explain(&table.file).0)?;
+        let path =
+            named_file(roots, base, &table.file).map_err(|why| why.explain(&table.file).0)?;
         if let table::Shape::Body { area_m2 } = table.shape {
             return self.body(&table, &path, area_m2, builder);
         }

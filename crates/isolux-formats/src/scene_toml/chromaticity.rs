@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::record::LightRecord;
+use crate::srgb::rec709_from_xyz;
 use isolux::units::Rgb;
 
 /// Temperatures that have a colour here, kelvin.
@@ -41,16 +42,6 @@ fn daylight(t: f64) -> (f64, f64) {
         ((-2.0064 * r + 1.9018) * r + 0.247_48) * r + 0.237_040
     };
     (x, (-3.0 * x + 2.870) * x - 0.275)
-}
-
-/// Linear Rec. 709 from CIE XYZ: the inverse of the matrix of its primaries and D65 white
-/// (ITU-R BT.709-6, item 1.3).
-fn rec709_from_xyz([x, y, z]: [f64; 3]) -> Rgb {
-    Rgb::new(
-        3.240_969_942 * x - 1.537_383_178 * y - 0.498_610_760 * z,
-        -0.969_243_636 * x + 1.875_967_502 * y + 0.041_555_057 * z,
-        0.055_630_080 * x - 0.203_976_959 * y + 1.056_971_514 * z,
-    )
 }
 
 /// The colour that is given, if any; `None` after a problem.

@@ -74,8 +74,13 @@ fn open(
     Some(match extension.as_deref() {
         Some("obj") => {
             let materials = context.materials;
-            let reading =
-                obj::Reading { unit_is_known: true, is_replaced: &is_replaced, materials, reach };
+            let reading = obj::Reading {
+                unit_is_known: true,
+                is_replaced: &is_replaced,
+                materials,
+                vertex_colours: record.asks_for_vertex_colours(),
+                reach,
+            };
             (obj::read_as(path, &reading), context.unit_m)
         }
         Some("gltf" | "glb") => {
@@ -128,12 +133,13 @@ fn refuse_vertex_colours(file: &At<String>, record: &GeometryRecord, context: &m
     let Some(asked) = record.vertex_colours.as_ref().filter(|asked| *asked.get_ref()) else {
         return;
     };
-    let is_ply = file.get_ref().to_lowercase().ends_with(".ply");
-    let what = match is_ply {
-        false => "`vertex_colours` of a file that is no .ply",
-        true if record.material.is_some() || !record.materials.is_empty() => {
-            "`vertex_colours` beside a material"
-        }
+    let name = file.get_ref().to_lowercase();
+    let (is_obj, is_ply) = (name.ends_with(".obj"), name.ends_with(".ply"));
+    // Materials of an OBJ file may replace some of its parts, those of a PLY file the whole.
+    let is_replaced = record.material.is_some() || is_ply && !record.materials.is_empty();
+    let what = match is_obj || is_ply {
+        false => "`vertex_colours` of a file that is neither .obj nor .ply",
+        true if is_replaced => "`vertex_colours` beside a material",
         true => return,
     };
     context.problem(&asked.span(), what, "remove it, or what it contradicts");

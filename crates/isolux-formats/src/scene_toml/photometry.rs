@@ -210,7 +210,11 @@ fn read(
             None
         }
         Ok(Some(loaded)) => context.findings.absorb(Ok(loaded)),
-        Err(problems) => context.findings.absorb(Err(problems)),
+        Err(problems) => {
+            let what = format!("`{}` cannot be used, for the reason that follows", file.get_ref());
+            context.problem(&file.span(), what, "mend it, or name another file");
+            context.findings.absorb(Err(problems))
+        }
     }
 }
 

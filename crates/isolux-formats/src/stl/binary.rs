@@ -26,7 +26,21 @@ fn count(bytes: &[u8]) -> Option<u64> {
     Some(u64::from(u32::from_le_bytes(count)))
 }
 
+/// Bytes that are looked at to tell text from other things.
+const BEGINNING: usize = 1024;
+
+/// Whether bytes are words of another kind of file.
+fn is_other_text(bytes: &[u8]) -> bool {
+    let beginning = &bytes[..bytes.len().min(BEGINNING)];
+    !beginning.is_empty() && beginning.iter().all(|b| matches!(b, b'\t'..=b'\r' | b' '..=b'~'))
+}
+
 pub(super) fn parse(bytes: &[u8], findings: &mut Findings) -> Vec<Solid> {
+    if is_other_text(bytes) {
+        let what = "is text that does not begin with `solid`: it is no STL";
+        findings.problem("line 1", what, "check its name, or export the geometry as STL");
+        return Vec::new();
+    }
     let Some(told) = count(bytes) else {
         let what = format!("{} bytes are neither text nor binary STL", bytes.len());
         findings.problem("", what, "export the geometry again");

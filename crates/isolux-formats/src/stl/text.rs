@@ -61,7 +61,20 @@ impl Parser {
             Some((keyword, rest)) => (keyword, rest.trim()),
             None => (line, ""),
         };
-        match keyword.to_ascii_lowercase().as_str() {
+        let keyword = keyword.to_ascii_lowercase();
+        // What begins in the line of another statement would be taken for a part of it.
+        let within = match keyword.as_str() {
+            "solid" => "facet",
+            "facet" => "vertex",
+            _ => "",
+        };
+        let mut words = rest.split_whitespace().skip(usize::from(keyword == "solid"));
+        if !within.is_empty() && words.any(|word| word.eq_ignore_ascii_case(within)) {
+            return Err(format!(
+                "`{within}` stands in the line of `{keyword}`; each statement takes a line of its own"
+            ));
+        }
+        match keyword.as_str() {
             "" | "outer" | "endloop" => Ok(()),
             "solid" => self.begin(rest),
             "endsolid" => {

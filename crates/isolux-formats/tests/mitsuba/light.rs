@@ -117,6 +117,38 @@ fn spectra_by_type() {
     );
     let emitter = |spectrum: &str| format!("{RECTANGLE}<emitter type='point'>{spectrum}</emitter>");
     refused(&emitter("<spectrum name='intensity' type='blackbody'/>"), "type `blackbody`");
-    refused(&emitter("<spectrum name='intensity' filename='a.spd'/>"), "files of their own");
+    refused(&emitter("<spectrum name='intensity' filename='a.spd'/>"), "`a.spd` does not exist");
     refused(&emitter("<spectrum name='intensity' type='regular'/>"), "no regular list");
+}
+
+#[test]
+fn spectra_in_files() {
+    let colour = |spectrum: &str, file: &str| {
+        let inside =
+            format!("<shape type='rectangle'><bsdf type='diffuse'>{spectrum}</bsdf></shape>");
+        read_with(&inside, &[("paint.spd", file)]).map(|read| {
+            let parts = read.value;
+            let body = &parts.materials[parts.shapes[0].material as usize].body;
+            let Body::Opaque { front, .. } = body else { panic!("{body:?}") };
+            front.diffuse.colour
+        })
+    };
+    let inside = "<spectrum name='reflectance' value='400:0.1 590:0.2 780:0.7'/>";
+    let inside = colour(inside, "").unwrap();
+    let file = "# nm, share\n400 0.1\n590\t0.2\n780 0.7 # red\n";
+    for of_file in [
+        "<spectrum name='reflectance' filename='paint.spd'/>",
+        "<spectrum name='reflectance' type='irregular' filename='paint.spd'/>",
+    ] {
+        assert_eq!(colour(of_file, file).unwrap(), inside, "{of_file}");
+        for (bad, told) in [
+            ("400 0.1\n590 0.2 3\n", "`paint.spd`: line 2: `590 0.2 3` is not two numbers"),
+            ("# none\n", "there are no values"),
+            ("500 1\n400 1\n", "wavelength"),
+            ("400 one\n500 1\n", "wavelength"),
+        ] {
+            let message = colour(of_file, bad).unwrap_err().to_string();
+            assert!(message.contains(told) && message.contains("line "), "{message}");
+        }
+    }
 }

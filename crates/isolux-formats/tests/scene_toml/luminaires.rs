@@ -5,6 +5,7 @@ use isolux::geometry::{Direction, Point, Vector};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{AreaShape, Luminaire, LuminaireKind, Scene, SceneParts};
 use isolux::units::Rgb;
+use isolux_formats::Problems;
 use std::f64::consts::PI;
 
 fn parts(luminaire: &str) -> SceneParts {
@@ -66,7 +67,11 @@ fn photometric_files() {
     assert!((flux("ies = 'lamp.ies'\nflux_lm = 1234") - 1234.0).abs() < 1e-9);
     let problem = scene("ies = 'gone.ies'").unwrap_err().to_string();
     assert!(problem.contains("line 3, column 7: file `gone.ies` does not exist"), "{problem}");
-    assert!(scene("ies = 'scene.toml'").is_err());
+    // Regression: the line that names a broken file was not told.
+    let Problems(broken) = scene("ies = 'scene.toml'").unwrap_err();
+    assert_eq!(broken[0].place, "line 3, column 7");
+    assert!(broken[0].what.contains("`scene.toml` cannot be used"), "{}", broken[0]);
+    assert!(broken.len() > 1 && broken[1].place != broken[0].place, "{broken:?}");
     assert!(scene("ldt = 'lamp.ies'").is_err());
 }
 
