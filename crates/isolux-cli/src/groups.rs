@@ -1,6 +1,7 @@
 //! `solve --group`: a map for every group of luminaires, and their sum.
 
 use crate::arriving::FluxLost;
+use crate::claim::Claim;
 use crate::clock::Clock;
 use crate::console::{print, print_json, table};
 use crate::estimate::Estimate;
@@ -88,6 +89,8 @@ pub(crate) fn run(
     let started = Instant::now();
     let resume = flags.resume;
     let outputs = outputs(groups, whole.output)?;
+    let claimed = outputs.iter().chain([whole.output]).map(Claim::of);
+    let _claims = claimed.collect::<Result<Vec<_>, _>>()?;
     let lightmap = planned((scene, &outputs), whole, flags)?;
     let mut request = whole.request.clone();
     if let Some(lightmap) = &lightmap {

@@ -1,6 +1,7 @@
 //! `isolux solve`: a scene to a map.
 
 use crate::arriving::FluxLost;
+use crate::claim::Claim;
 use crate::clock::Clock;
 use crate::console::{facts, print, print_json};
 use crate::energy;
@@ -52,6 +53,7 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         let run = Run { source: &flags.scene, output: &output, request: &asked.request };
         return groups::run((&scene, &groups), (&run, clock), flags, json);
     }
+    let _claim = Claim::of(&output)?;
     let mut live = match flags.live {
         true => Some(Live::start(&flags.server, &scene, output.path())?),
         false => None,

@@ -97,13 +97,16 @@ fn a_run_stopped_and_resumed_gives_the_same_bits() {
 #[test]
 fn who_stops_while_finer_elements_are_made_has_what_was_known_before() {
     // Which accuracies take elements made anew depends on what the pilot foresees.
-    let stopped = |(reflectance, accuracy): (f64, f64)| {
+    let case = |(reflectance, accuracy): (f64, f64)| {
         let room = inward_box([0.0; 3], [4.0, 5.0, 2.8], 0);
         let table = outward_box([1.0, 1.0, 0.7], [3.0, 2.0, 0.8], 0);
         let shapes = room.into_iter().chain(table).collect();
         let lamps = vec![lamp([2.0, 2.5, 2.5], 100.0)];
         let scene = scene(shapes, vec![painted(reflectance)], lamps);
-        let request = SolveRequest { accuracy: Some(accuracy), ..SolveRequest::default() };
+        (scene, SolveRequest { accuracy: Some(accuracy), ..SolveRequest::default() })
+    };
+    let stopped = |of: (f64, f64)| {
+        let (scene, request) = case(of);
         let (mut seen, mut stopped) = (None, false);
         let solution = solve(&scene, &request, None, &mut |p| {
             stopped |= p.stage == Stage::Pilot && seen.is_some();
@@ -113,17 +116,23 @@ fn who_stops_while_finer_elements_are_made_has_what_was_known_before() {
             if stopped { Watch::Stop } else { Watch::Continue }
         });
         let solution = solution.expect("the scene has light");
-        (!solution.map.provenance.complete).then_some((solution, seen))
+        (!solution.map.provenance.complete).then_some((of, solution, seen))
     };
     let accuracies = [1e-2, 5e-3, 3e-3, 2e-3, 1.5e-3, 1e-3];
     let rooms = [0.95, 0.9, 0.7].into_iter();
     let mut all = rooms.flat_map(|reflectance| accuracies.map(|accuracy| (reflectance, accuracy)));
     let found = all.find_map(stopped);
-    let (solution, seen) = found.expect("some first elements were to be too coarse");
+    let (of, solution, seen) = found.expect("some first elements were to be too coarse");
     let (increments, receivers) = seen.expect("increments came first");
     assert_eq!(solution.state.stage, 1);
     assert_eq!(solution.state.increments, increments);
     assert_eq!(solution.map.elements.vertices().len() as u64, receivers);
+    // What is decided at the last increment of a mesh is decided again, and not after one more.
+    let (scene, request) = case(of);
+    let on =
+        |saved| solve(&scene, &request, saved, &mut |_| Watch::Continue).expect("the same run");
+    let (whole, resumed) = (on(None), on(Some(&solution.state)));
+    assert_eq!(written(&resumed.map), written(&whole.map));
 }
 
 #[test]
