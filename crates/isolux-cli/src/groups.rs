@@ -244,10 +244,13 @@ fn solve_one(
     note(Note::Info, format!("group \"{}\"", shown::name(&group.name)));
     let run = Run { source, output, request: &request };
     let mut solved = solving::solve(&group.scene, &run, saved.as_ref(), (reporter, None))?;
-    let less = kept::write((&group.scene, &run), &mut solved, turn.resume)?;
+    let written = kept::write((&group.scene, &run), &mut solved, turn.resume);
     let Solved { solution, outcome, .. } = solved;
     let is_done = matches!(outcome, Outcome::Done);
-    kept::keep_state(output, (&solution.state, saved.as_ref()), is_done)?;
+    let kept = kept::with_map(&written, outcome)
+        .then(|| kept::keep_state(output, (&solution.state, saved.as_ref()), is_done));
+    let less = written?;
+    kept.transpose()?;
     let report =
         Report::of((&group.scene, &solution.map), solution.time_s, output).instead_of(less);
     Ok(SolvedGroup { map: solution.map, report, outcome })

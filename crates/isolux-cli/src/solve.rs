@@ -111,16 +111,19 @@ fn one(
         None => watched(flags, (scene, output), request, (saved.as_ref(), live.as_deref_mut()))?,
     };
     let run = Run { source: &flags.scene, output, request };
-    let less = kept::write((scene, &run), &mut solved, flags.resume)?;
+    let written = kept::write((scene, &run), &mut solved, flags.resume);
+    // Until a lightmap is written, too, there is something to go on with.
+    let finished = solved.outcome == Outcome::Done && lightmap.is_none();
+    let kept = kept::with_map(&written, solved.outcome)
+        .then(|| kept::keep_state(output, (&solved.solution.state, saved.as_ref()), finished));
+    let less = written?;
+    kept.transpose()?;
     if let Some(live) = live {
         live.end(&solved.solution, output.path());
     }
     if let Some(file) = &mut cache {
         cache_samples::keep(file, &solved.solution.cache);
     }
-    // Until a lightmap is written, too, there is something to go on with.
-    let finished = solved.outcome == Outcome::Done && lightmap.is_none();
-    kept::keep_state(output, (&solved.solution.state, saved.as_ref()), finished)?;
     let (outcome, lightmap) = match &lightmap {
         Some(planned) => bake(output, (scene, planned), &solved, (clock, flags.progress))?,
         None => {

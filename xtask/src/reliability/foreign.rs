@@ -7,7 +7,7 @@ use super::sealed::{damaged, in_format, with};
 use super::told::{Told, line};
 use super::watched::Watched;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::Path;
 
 /// States damaged for every run that is disturbed.
 const DAMAGED: u64 = 3;
@@ -26,7 +26,7 @@ const NUMBERS: [&str; 3] = ["increments", "rays", "stage"];
 /// Shows such states to a run.
 pub(super) fn run(
     bench: &Bench,
-    other: Option<&PathBuf>,
+    other: Option<&Path>,
     (seed, count): (u64, u64),
     told: &mut Told,
 ) -> Result<Value, String> {
@@ -120,10 +120,10 @@ impl Refusal<'_> {
 }
 
 /// A state of another build of the same sources is gone on with, that of other sources is refused.
-fn of_build(bench: &Bench, other: &PathBuf, told: &mut Told) -> Result<Value, String> {
+fn of_build(bench: &Bench, other: &Path, told: &mut Told) -> Result<Value, String> {
     let (whole, _) = bench.whole(&LONG, "2")?;
     bench.clear()?;
-    let made_by = Bench { isolux: other.clone(), folder: bench.folder.clone(), ..*bench };
+    let made_by = Bench { isolux: other.to_owned(), folder: bench.folder.clone(), ..*bench };
     Watched::start(&made_by, &LONG, &[], &[])?.stop_in_increments(&made_by)?;
     let ended = ended(bench.solve(&LONG, &[], &["--resume"]))?;
     let is_gone_on = ended.code == Some(0) && bench.maps() == whole;

@@ -68,7 +68,7 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
 
 fn of_part(part: &str, bench: &Bench, flags: &Flags, told: &mut Told) -> Result<Value, String> {
     let chance = (flags.seed, flags.count);
-    let other = flags.other.as_ref();
+    let other = flags.other.as_deref();
     match part {
         "kills" => kills::run(bench, chance, told),
         "disk" => disk::run(bench, chance, told),

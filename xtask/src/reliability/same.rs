@@ -4,7 +4,7 @@ use super::cases::{CASES, Case, SMALL};
 use super::runs::{Bench, Maps, ended};
 use super::told::Told;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::Command;
 
 /// Numbers of threads.
@@ -16,11 +16,7 @@ const PROCESSORS: [(&str, &str); 2] =
     [("Nehalem", "neither AVX nor AVX2"), ("max", "AVX2, no AVX-512")];
 
 /// Compares maps of the same input.
-pub(super) fn run(
-    bench: &Bench,
-    other: Option<&PathBuf>,
-    told: &mut Told,
-) -> Result<Value, String> {
+pub(super) fn run(bench: &Bench, other: Option<&Path>, told: &mut Told) -> Result<Value, String> {
     let mut rows = Vec::new();
     for case in &CASES {
         let (first, _) = bench.whole(case, THREADS[0])?;
@@ -30,7 +26,7 @@ pub(super) fn run(
         }
         rows.push(json!({ "what": format!("1, 2, 3, 7 threads: {}", case.name), "runs": THREADS.len(), "same_bytes": fine }));
         if let Some(other) = other {
-            let other = Bench { isolux: other.clone(), folder: bench.folder.clone(), ..*bench };
+            let other = Bench { isolux: other.to_owned(), folder: bench.folder.clone(), ..*bench };
             let fine = is_same(&other, case, &first, (&[], "2"), told)?;
             rows.push(json!({ "what": format!("another build: {}", case.name), "runs": 1, "same_bytes": u64::from(fine) }));
         }
