@@ -15,7 +15,7 @@ const DAMAGED: u64 = 3;
 const OTHERS: [(&str, Case, &[&str]); 6] = [
     ("the scene", Case { scene: "builtin:sphere", ..LONG }, &[]),
     ("the method", Case { method: "forward", ..LONG }, &[]),
-    ("the accuracy", Case { accuracy: "0.11%", ..LONG }, &[]),
+    ("the accuracy", Case { accuracy: "0.16%", ..LONG }, &[]),
     ("the seed", LONG, &["--seed", "2"]),
     ("the memory allowed", LONG, &["--max-memory", "4GiB"]),
     ("whether it is audited", LONG, &["--no-audit"]),
