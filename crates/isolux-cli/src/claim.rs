@@ -6,6 +6,12 @@ use crate::output::OutputPath;
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// A run that was killed holds its lock until the system has taken its memory back: so long a claim waits for it.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// How often it looks.
+const PAUSE: Duration = Duration::from_millis(20);
 
 /// An output that no other run may write until this goes. A lock of the system stands behind it, which ends with the process,
 /// however that ends; the file that is locked may then stay and does no harm.
@@ -20,11 +26,15 @@ impl Claim {
     /// Claims an output, or says that another run has.
     pub(crate) fn of(output: &OutputPath) -> Result<Self, Failure> {
         let path = path_beside(output.path());
+        let begun = Instant::now();
         let locked = loop {
             match lock(&path) {
                 // Whoever had claimed it before has removed the file since it was opened: there may be a new one.
                 Ok(file) if !is_named(&file, &path) => {}
                 Ok(file) => break Some(file),
+                Err(TryLockError::WouldBlock) if begun.elapsed() < PATIENCE => {
+                    std::thread::sleep(PAUSE)
+                }
                 Err(TryLockError::WouldBlock) => return Err(taken(output)),
                 Err(TryLockError::Error(error)) => {
                     tell_of_missing_lock(output, &error);

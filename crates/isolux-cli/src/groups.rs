@@ -88,9 +88,7 @@ pub(crate) fn run(
 ) -> Result<Outcome, Failure> {
     let started = Instant::now();
     let resume = flags.resume;
-    let outputs = outputs(groups, whole.output)?;
-    let claimed = outputs.iter().chain([whole.output]).map(Claim::of);
-    let _claims = claimed.collect::<Result<Vec<_>, _>>()?;
+    let (outputs, _claims) = outputs(groups, whole.output)?;
     let lightmap = planned((scene, &outputs), whole, flags)?;
     let mut request = whole.request.clone();
     if let Some(lightmap) = &lightmap {
@@ -157,8 +155,8 @@ fn tell_what_is_missing(sum: &OutputPath, groups: usize) {
     note(Note::Warning, text);
 }
 
-/// Where the map of each group goes.
-fn outputs(groups: &[Group], sum: &OutputPath) -> Result<Vec<OutputPath>, Failure> {
+/// Where the map of each group goes, and claims to all of them and to the sum.
+fn outputs(groups: &[Group], sum: &OutputPath) -> Result<(Vec<OutputPath>, Vec<Claim>), Failure> {
     let mut outputs = Vec::new();
     for group in groups {
         let path = path_of(sum.path(), &group.name);
@@ -172,7 +170,8 @@ fn outputs(groups: &[Group], sum: &OutputPath) -> Result<Vec<OutputPath>, Failur
         saved_run::check_writable(&output)?;
         outputs.push(output);
     }
-    Ok(outputs)
+    let claims = outputs.iter().chain([sum]).map(Claim::of).collect::<Result<_, _>>()?;
+    Ok((outputs, claims))
 }
 
 /// One layout for all groups: they light the same surfaces.

@@ -35,18 +35,18 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
     let isolux =
         std::fs::canonicalize(&isolux).map_err(|e| format!("{}: {e}", isolux.display()))?;
     let folder = root.join("target").join("reliability");
-    let bench = Bench { root, isolux, folder: folder.join("run") };
     let kept = if flags.save { root.join(page::TABLE) } else { folder.join("table.json") };
     let asked: Vec<&str> =
         PARTS.into_iter().filter(|part| flags.only.is_none_or(|only| only == *part)).collect();
     if asked.is_empty() {
         return Err(format!("reliability: there are {}", PARTS.join(", ")));
     }
-    let mut table: Value = read(&kept);
     let mut told = Told::new();
     for part in asked {
+        let bench = Bench { root, isolux: isolux.clone(), folder: folder.join(part) };
         let begun = Instant::now();
         let rows = of_part(part, &bench, &flags, &mut told)?;
+        let mut table = read(&kept);
         table[part] = json!({
             "command": flags.command(part),
             "isolux": version(&bench)?,
@@ -57,6 +57,7 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
         // A bench that is stopped leaves what it has.
         write(&kept, &format!("{table:#}\n"))?;
     }
+    let table = read(&kept);
     if flags.save {
         page::write(root, &table)?;
     }
