@@ -2,13 +2,17 @@
 
 use super::cases::{CASES, LONG};
 use super::dice::Dice;
-use super::runs::{Bench, Maps, ended, signal, start, wait};
+use super::runs::{Bench, CHECKPOINT, Maps, ended, is_over, signal, start, wait};
 use super::told::Told;
 use super::watched::Watched;
 use serde_json::{Value, json};
+use std::thread::sleep;
+use std::time::Duration;
 
 /// What the second is told.
 const REFUSED: &str = "another run is writing it";
+/// How often it is looked for a state.
+const GLANCE: Duration = Duration::from_millis(20);
 /// A run of a second or two.
 const SHORT: usize = 0;
 
@@ -57,11 +61,17 @@ fn later(bench: &Bench, whole: &Maps, dice: &mut Dice, told: &mut Told) -> Resul
     let second = ended(bench.solve(&LONG, &[], flags))?;
     let is_refused = second.code == Some(2) && second.said.contains(REFUSED);
     let mut fine = told.expect(is_refused, || format!("a second run: {second:?}"));
+    // Its state is kept on the way, so that there is something to go on with.
+    while !is_over(&mut first.child) && bench.bytes(CHECKPOINT).is_empty() {
+        sleep(GLANCE);
+    }
     signal(&first.child, "KILL")?;
     first.rest();
     wait(first.child)?;
     let third = ended(bench.solve(&LONG, &[], &["--resume"]))?;
+    let is_resumed = !third.said.contains("no such run to resume");
     let is_right = third.code == Some(0) && bench.maps() == *whole && bench.others().is_empty();
+    fine &= told.expect(is_resumed, || format!("no state was kept on the way: {third:?}"));
     fine &= told.expect(is_right, || format!("a run after one that was killed: {third:?}"));
     Ok(fine)
 }
