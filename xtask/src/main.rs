@@ -12,6 +12,7 @@ mod judge;
 mod lamps;
 mod page;
 mod peers;
+mod reliability;
 mod sanitize;
 mod sbom;
 mod smoke;
@@ -37,6 +38,9 @@ cargo xtask compared      of --all, all systems by error against time, as short 
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
 cargo xtask sanitize      of --all, the ray kernel under the address sanitizer
+cargo xtask reliability   faults injected into runs of the command: kills, full disks, damaged states; are the bytes the same?
+                          [--only kills|disk|foreign|twice|same|hostile] [--seed 1] [--count 70]
+                          [--isolux PATH] [--other PATH] [--save]
 cargo xtask sbom          what is linked into the command, as CycloneDX
 cargo xtask consumers     light in Blender, Godot and Bevy, by hand
 cargo xtask bench setup   download Embree 4.4 into target/embree, and Radiance, Mitsuba and LuxCore into target/peers
@@ -64,6 +68,7 @@ fn main() -> ExitCode {
         ["walk"] => walk::run(root),
         ["lamps"] => lamps::run(root),
         ["golden", ref arguments @ ..] => golden::run(root, arguments),
+        ["reliability", ref arguments @ ..] => reliability::run(root, arguments),
         ["colours"] => colours::run(root),
         ["compared"] => compared::run(root),
         ["sanitize"] => sanitize::run(root),

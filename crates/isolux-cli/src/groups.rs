@@ -1,6 +1,7 @@
 //! `solve --group`: a map for every group of luminaires, and their sum.
 
 use crate::arriving::FluxLost;
+use crate::claim::Claim;
 use crate::clock::Clock;
 use crate::console::{print, print_json, table};
 use crate::estimate::Estimate;
@@ -87,7 +88,7 @@ pub(crate) fn run(
 ) -> Result<Outcome, Failure> {
     let started = Instant::now();
     let resume = flags.resume;
-    let outputs = outputs(groups, whole.output)?;
+    let (outputs, _claims) = outputs(groups, whole.output)?;
     let lightmap = planned((scene, &outputs), whole, flags)?;
     let mut request = whole.request.clone();
     if let Some(lightmap) = &lightmap {
@@ -154,8 +155,8 @@ fn tell_what_is_missing(sum: &OutputPath, groups: usize) {
     note(Note::Warning, text);
 }
 
-/// Where the map of each group goes.
-fn outputs(groups: &[Group], sum: &OutputPath) -> Result<Vec<OutputPath>, Failure> {
+/// Where the map of each group goes, and claims to all of them and to the sum.
+fn outputs(groups: &[Group], sum: &OutputPath) -> Result<(Vec<OutputPath>, Vec<Claim>), Failure> {
     let mut outputs = Vec::new();
     for group in groups {
         let path = path_of(sum.path(), &group.name);
@@ -169,7 +170,8 @@ fn outputs(groups: &[Group], sum: &OutputPath) -> Result<Vec<OutputPath>, Failur
         saved_run::check_writable(&output)?;
         outputs.push(output);
     }
-    Ok(outputs)
+    let claims = outputs.iter().chain([sum]).map(Claim::of).collect::<Result<_, _>>()?;
+    Ok((outputs, claims))
 }
 
 /// One layout for all groups: they light the same surfaces.
@@ -241,10 +243,13 @@ fn solve_one(
     note(Note::Info, format!("group \"{}\"", shown::name(&group.name)));
     let run = Run { source, output, request: &request };
     let mut solved = solving::solve(&group.scene, &run, saved.as_ref(), (reporter, None))?;
-    let less = kept::write((&group.scene, &run), &mut solved, turn.resume)?;
+    let written = kept::write((&group.scene, &run), &mut solved, turn.resume);
     let Solved { solution, outcome, .. } = solved;
     let is_done = matches!(outcome, Outcome::Done);
-    kept::keep_state(output, (&solution.state, saved.as_ref()), is_done)?;
+    let kept = kept::with_map(&written, outcome)
+        .then(|| kept::keep_state(output, (&solution.state, saved.as_ref()), is_done));
+    let less = written?;
+    kept.transpose()?;
     let report =
         Report::of((&group.scene, &solution.map), solution.time_s, output).instead_of(less);
     Ok(SolvedGroup { map: solution.map, report, outcome })

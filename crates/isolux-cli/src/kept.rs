@@ -1,6 +1,6 @@
 //! A map is replaced by one of the same run only if that knows more, unless the user solves from the beginning.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Outcome};
 use crate::map_file;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
@@ -98,6 +98,12 @@ fn is_of_same_run(there: &Provenance, found: &Provenance) -> bool {
         && there.version == found.version
         && of(there) == of(found)
         && there.mixed.is_empty()
+}
+
+/// Whether the state of a run is to be kept after its map was written or found no room: that of one that was stopped even then.
+/// One that is done goes on from the state of before, to the same map.
+pub(crate) fn with_map(written: &Result<Option<LessKnown>, Failure>, outcome: Outcome) -> bool {
+    written.is_ok() || outcome != Outcome::Done
 }
 
 /// Keeps the state of a run. One with nothing to go on from replaces none of a resumed run that has.

@@ -9,6 +9,7 @@ mod beside;
 mod cache_samples;
 mod cached_view;
 mod check;
+mod claim;
 mod clock;
 mod compare;
 mod console;

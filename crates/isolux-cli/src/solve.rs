@@ -1,6 +1,7 @@
 //! `isolux solve`: a scene to a map.
 
 use crate::arriving::FluxLost;
+use crate::claim::Claim;
 use crate::clock::Clock;
 use crate::console::{facts, print, print_json};
 use crate::energy;
@@ -52,6 +53,7 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         let run = Run { source: &flags.scene, output: &output, request: &asked.request };
         return groups::run((&scene, &groups), (&run, clock), flags, json);
     }
+    let _claim = Claim::of(&output)?;
     let mut live = match flags.live {
         true => Some(Live::start(&flags.server, &scene, output.path())?),
         false => None,
@@ -109,16 +111,19 @@ fn one(
         None => watched(flags, (scene, output), request, (saved.as_ref(), live.as_deref_mut()))?,
     };
     let run = Run { source: &flags.scene, output, request };
-    let less = kept::write((scene, &run), &mut solved, flags.resume)?;
+    let written = kept::write((scene, &run), &mut solved, flags.resume);
+    // Until a lightmap is written, too, there is something to go on with.
+    let finished = solved.outcome == Outcome::Done && lightmap.is_none();
+    let kept = kept::with_map(&written, solved.outcome)
+        .then(|| kept::keep_state(output, (&solved.solution.state, saved.as_ref()), finished));
+    let less = written?;
+    kept.transpose()?;
     if let Some(live) = live {
         live.end(&solved.solution, output.path());
     }
     if let Some(file) = &mut cache {
         cache_samples::keep(file, &solved.solution.cache);
     }
-    // Until a lightmap is written, too, there is something to go on with.
-    let finished = solved.outcome == Outcome::Done && lightmap.is_none();
-    kept::keep_state(output, (&solved.solution.state, saved.as_ref()), finished)?;
     let (outcome, lightmap) = match &lightmap {
         Some(planned) => bake(output, (scene, planned), &solved, (clock, flags.progress))?,
         None => {

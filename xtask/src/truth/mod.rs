@@ -106,7 +106,7 @@ fn write(folder: &Path, result: &Value) -> Result<(), String> {
 }
 
 /// Processor, cores and load, as other benches tell them.
-fn machine() -> Value {
+pub(crate) fn machine() -> Value {
     let read = |path: &str| std::fs::read_to_string(path).unwrap_or_default();
     let cpu = read("/proc/cpuinfo");
     let model =

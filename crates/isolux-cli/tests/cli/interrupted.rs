@@ -9,11 +9,11 @@ const SOLVE: [&str; 6] = ["solve", "builtin:cube", "-o", "m.glb", "--accuracy", 
 
 /// Starts a run and interrupts it after its first increments; its exit code.
 fn interrupt(home: &Home) -> i32 {
-    interrupt_with(home, &[]).0
+    interrupt_with(home, "INT", &[]).0
 }
 
-/// The same with more flags, and what it says afterwards.
-fn interrupt_with(home: &Home, flags: &[&str]) -> (i32, String) {
+/// The same by another signal and with more flags, and what it says afterwards.
+fn interrupt_with(home: &Home, signal: &str, flags: &[&str]) -> (i32, String) {
     let mut child = home.start(&[&SOLVE[..], &["--progress", "json"], flags].concat());
     let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
     let report: serde_json::Value = lines
@@ -22,24 +22,26 @@ fn interrupt_with(home: &Home, flags: &[&str]) -> (i32, String) {
         .find(|report: &serde_json::Value| report["stage"] == "increments")
         .unwrap();
     assert!(report["rays"].as_u64().unwrap() > 0, "{report}");
-    let id = child.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    let (signal, id) = (format!("-{signal}"), child.id().to_string());
+    assert!(Command::new("kill").args([&signal, &id]).status().unwrap().success());
     let said = lines.collect();
     (child.wait().unwrap().code().unwrap(), said)
 }
 
 #[test]
 fn an_interrupted_run_saves_its_map_and_its_state() {
-    let home = Home::new();
-    assert_eq!(interrupt(&home), 130);
-    assert_eq!(home.names(), ["m.checkpoint", "m.glb"]);
-    assert_eq!(home.run(&["info", "m.glb"]).code, 0);
+    for signal in ["INT", "TERM", "HUP"] {
+        let home = Home::new();
+        assert_eq!(interrupt_with(&home, signal, &[]).0, 130, "{signal}");
+        assert_eq!(home.names(), ["m.checkpoint", "m.glb"], "{signal}");
+        assert_eq!(home.run(&["info", "m.glb"]).code, 0, "{signal}");
+    }
 }
 
 #[test]
 fn an_interrupted_run_says_that_texels_are_missing() {
     let home = Home::new();
-    let (code, said) = interrupt_with(&home, &["--layout", "texels"]);
+    let (code, said) = interrupt_with(&home, "INT", &["--layout", "texels"]);
     assert!(code == 130 && said.contains("the texels are not baked"), "{code}: {said}");
     assert_eq!(home.names(), ["m.checkpoint", "m.glb"]);
 }

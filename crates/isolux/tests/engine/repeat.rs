@@ -85,11 +85,15 @@ fn a_run_stopped_and_resumed_gives_the_same_bits() {
         let whole = run(&scene, &request, 12).expect("the scene has light");
         let part = run(&scene, &request, 5).expect("the scene has light");
         assert_eq!(part.state.increments, 5);
+        let mut seen = Vec::new();
         let stop = &mut |p: &Progress| {
-            let enough = p.stage == Stage::Increments && p.increments >= 12;
-            if enough { Watch::Stop } else { Watch::Continue }
+            let is_increment = p.stage == Stage::Increments;
+            seen.extend(is_increment.then_some(p.increments));
+            if is_increment && p.increments >= 12 { Watch::Stop } else { Watch::Continue }
         };
         let resumed = solve(&scene, &request, Some(&part.state), stop).expect("the same run");
+        // The run may have been stopped where its increments end, which is decided before one more is added.
+        assert!(seen.starts_with(&[5, 6]), "{method:?}: {seen:?}");
         assert_eq!(written(&resumed.map), written(&whole.map), "{method:?}");
     }
 }
@@ -134,6 +138,8 @@ fn a_map_looked_at_on_the_way_is_that_of_a_run_stopped_there() {
         let (mut looked, mut ended_at) = (None, None);
         let watch = &mut |p: &Progress, so_far: &SoFar| {
             assert_eq!(so_far.map().is_some(), p.stage == Stage::Increments);
+            // From the end of a run nothing goes on to the same bits.
+            assert_eq!(so_far.state().is_some(), p.stage == Stage::Increments && !p.ends);
             if p.ends && ended_at.is_none() {
                 (looked, ended_at) = (so_far.map(), Some(p.increments));
             }

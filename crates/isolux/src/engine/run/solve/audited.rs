@@ -22,8 +22,11 @@ impl Run<'_, '_> {
     pub(super) fn audited_end(&mut self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
         self.audit = None;
         let count = work.sums.increments;
-        if let Some(told) = accuracy.filter(|_| count.is_power_of_two()) {
-            self.audited.noise.push((count, told.statistical));
+        // Increments are judged a second time where a saved run goes on, or the time ends within the next one.
+        let noise =
+            accuracy.filter(|_| count.is_power_of_two()).map(|told| (count, told.statistical));
+        if noise.is_some() && noise != self.audited.noise.last().copied() {
+            self.audited.noise.extend(noise);
         }
         let end = self.end(work, accuracy);
         let is_last = matches!(end, Some(End::Reached | End::InVain)) && !self.stopped;

@@ -147,8 +147,12 @@ impl<'s> Run<'s, '_> {
         }
         let pace = Pace { started_s: self.elapsed_s(), before: work.sums.increments };
         let allowed = energy_bound::Allowed::of(plan);
+        // A saved run may have stopped where its increments end: that is judged before another increment is added.
+        let mut is_judged = saved.is_none();
         loop {
-            self.stopped |= !self.advance(&mut work);
+            if mem::replace(&mut is_judged, true) {
+                self.stopped |= !self.advance(&mut work);
+            }
             let whole_mesh = saved.is_some() || !self.cut;
             if let Some([mean_lx, allowed_lx]) = work.beyond_energy(&allowed) {
                 return Err(SolveError::MoreThanEnergy { mean_lx, allowed_lx });
@@ -159,7 +163,7 @@ impl<'s> Run<'s, '_> {
             let reached = end == Some(End::Reached);
             let so_far = SoFar {
                 map: &|| Some(self.map(&work, accuracy, reached)),
-                state: &|| whole_mesh.then(|| self.state(Some(&work))),
+                state: &|| (whole_mesh && !progress.ends).then(|| self.state(Some(&work))),
             };
             let answer = watch(&progress, &so_far);
             self.heed(answer);

@@ -48,8 +48,8 @@ impl SoFar<'_> {
         (self.map)()
     }
 
-    /// The present state; `None` if there is nothing to continue from. A run with the same request continues from it to
-    /// the same bits.
+    /// The present state; `None` if there is nothing to continue from, as in a run that ends here. A run with the same
+    /// request continues from it to the same bits.
     pub fn state(&self) -> Option<RunState> {
         (self.state)()
     }
