@@ -40,7 +40,7 @@ cargo xtask golden        forty small maps beside their hashes: has a change of 
 cargo xtask sanitize      of --all, the ray kernel under the address sanitizer
 cargo xtask reliability   faults injected into runs of the command: kills, full disks, damaged states; are the bytes the same?
                           [--only kills|disk|foreign|twice|same|hostile] [--seed 1] [--count 70]
-                          [--isolux PATH] [--other PATH] [--save]
+                          [--isolux PATH] [--other PATH] [--arm PATH] [--save]
 cargo xtask sbom          what is linked into the command, as CycloneDX
 cargo xtask consumers     light in Blender, Godot and Bevy, by hand
 cargo xtask bench setup   download Embree 4.4 into target/embree, and Radiance, Mitsuba and LuxCore into target/peers

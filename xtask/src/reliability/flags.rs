@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-const USE: &str = "use --only kills|disk|foreign|twice|same|hostile, --seed N, --count N, --isolux PATH, --other PATH, --save";
+const USE: &str = "use --only kills|disk|foreign|twice|same|hostile, --seed N, --count N, --isolux PATH, --other PATH, --arm PATH, --save";
 
 /// Its flags.
 pub(super) struct Flags<'a> {
@@ -14,13 +14,16 @@ pub(super) struct Flags<'a> {
     pub(super) isolux: Option<PathBuf>,
     /// The command built in another way, whose bytes are to be the same.
     pub(super) other: Option<PathBuf>,
+    /// The command built for 64-bit Arm, which is played.
+    pub(super) arm: Option<PathBuf>,
     pub(super) save: bool,
 }
 
 impl<'a> Flags<'a> {
     pub(super) fn parse(arguments: &[&'a str]) -> Result<Self, String> {
         let (seed, count) = (1, 70);
-        let mut flags = Self { only: None, seed, count, isolux: None, other: None, save: false };
+        let (isolux, other, arm) = (None, None, None);
+        let mut flags = Self { only: None, seed, count, isolux, other, arm, save: false };
         let mut words = arguments.iter().copied();
         while let Some(word) = words.next() {
             let mut value = || words.next().ok_or(format!("reliability: give {word} a value"));
@@ -30,6 +33,7 @@ impl<'a> Flags<'a> {
                 "--count" => flags.count = number(value()?)?.max(1),
                 "--isolux" => flags.isolux = Some(path(value()?)?),
                 "--other" => flags.other = Some(path(value()?)?),
+                "--arm" => flags.arm = Some(path(value()?)?),
                 "--save" => flags.save = true,
                 _ => return Err(format!("reliability: {word}: {USE}")),
             }
@@ -40,10 +44,12 @@ impl<'a> Flags<'a> {
     /// What makes the rows of a part again.
     pub(super) fn command(&self, part: &str) -> String {
         let other = self.other.as_ref().map_or("", |_| " --other PATH");
+        let arm = self.arm.as_ref().map_or("", |_| " --arm PATH");
         let Self { seed, count, .. } = self;
         match part {
             "hostile" => format!("cargo xtask reliability --only {part} --seed {seed}"),
-            "same" | "foreign" => {
+            "same" => format!("cargo xtask reliability --only {part} --count {count}{other}{arm}"),
+            "foreign" => {
                 format!(
                     "cargo xtask reliability --only {part} --seed {seed} --count {count}{other}"
                 )

@@ -75,7 +75,7 @@ fn of_part(part: &str, bench: &Bench, flags: &Flags, told: &mut Told) -> Result<
         "disk" => disk::run(bench, chance, told),
         "foreign" => foreign::run(bench, other, chance, told),
         "twice" => twice::run(bench, chance, told),
-        "same" => same::run(bench, other, told),
+        "same" => same::run(bench, (other, flags.arm.as_deref()), told),
         _ => hostile::run(bench.root, flags.seed, told),
     }
 }

@@ -11,12 +11,18 @@ use std::process::Command;
 const THREADS: [&str; 4] = ["1", "2", "3", "7"];
 /// A program that plays another processor.
 const PLAYER: &str = "qemu-x86_64";
+/// A program that plays 64-bit Arm.
+const ARM_PLAYER: &str = "qemu-aarch64";
 /// Processors that it plays, with what they have.
 const PROCESSORS: [(&str, &str); 2] =
     [("Nehalem", "neither AVX nor AVX2"), ("max", "AVX2, no AVX-512")];
 
 /// Compares maps of the same input.
-pub(super) fn run(bench: &Bench, other: Option<&Path>, told: &mut Told) -> Result<Value, String> {
+pub(super) fn run(
+    bench: &Bench,
+    (other, arm): (Option<&Path>, Option<&Path>),
+    told: &mut Told,
+) -> Result<Value, String> {
     let mut rows = Vec::new();
     for case in &CASES {
         let (first, _) = bench.whole(case, THREADS[0])?;
@@ -45,6 +51,18 @@ pub(super) fn run(bench: &Bench, other: Option<&Path>, told: &mut Told) -> Resul
             told.step(&format!("{} on {processor}", case.name));
         }
         rows.push(json!({ "what": format!("{has}: all methods"), "runs": SMALL.len(), "same_bytes": fine }));
+    }
+    if let Some(arm) = arm {
+        let arm = Bench { isolux: arm.to_owned(), folder: bench.folder.clone(), ..*bench };
+        let mut fine = 0;
+        for case in &SMALL {
+            let (first, _) = bench.whole(case, "2")?;
+            fine += u64::from(is_same(&arm, case, &first, (&[ARM_PLAYER], "2"), told)?);
+            told.step(&format!("{} on 64-bit Arm", case.name));
+        }
+        rows.push(
+            json!({ "what": "64-bit Arm: all methods", "runs": SMALL.len(), "same_bytes": fine }),
+        );
     }
     Ok(Value::Array(rows))
 }
