@@ -104,7 +104,11 @@ fn trace(
     Ok(found)
 }
 
+/// A place that no path finds light at is dark: it is behind things, or inside of them.
 fn one(value: &Value) -> Option<Truth> {
+    if value["illuminance_lx"].is_null() {
+        return Some(Truth { lx: 0.0, variance: 0.0 });
+    }
     let error_lx = value["standard_error_lx"].as_f64()?;
     let lx = value["illuminance_lx"].as_f64()? - value["caustic_lx"].as_f64()?;
     Some(Truth { lx, variance: error_lx * error_lx })
