@@ -43,14 +43,15 @@ pub(crate) fn of_lightmap() -> u64 {
 }
 
 fn end(lack: Lack) -> ! {
-    let [used, wanted] = [lack.used, lack.wanted].map(|bytes| show_bytes(bytes as u64));
-    let (whose, remedy) = match lack.allowed.and(ASKED.get()) {
+    let all = (lack.used.saturating_add(lack.wanted) as u64).saturating_sub(PROGRAM);
+    let (bound, remedy) = match lack.allowed.and(ASKED.get()) {
         Some(asked) => (format!("the {} of --max-memory", show_bytes(*asked)), "raise it"),
         None => ("this machine gives".to_owned(), "use a machine with more"),
     };
     let what = format!(
-        "{used} of memory are in use, and {wanted} more are needed, more than {whose}; {remedy}, or ask for less: a larger \
-         --accuracy, fewer texels or pixels, a simpler scene"
+        "at least {} of memory are needed, more than {bound}; {remedy}, or ask for less: a smaller picture, fewer texels, a \
+         larger --accuracy, a simpler scene",
+        show_bytes(all)
     );
     note(Note::Refused, &what);
     if IS_JSON.load(Ordering::Relaxed) {

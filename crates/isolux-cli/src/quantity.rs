@@ -19,7 +19,7 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
 pub(crate) fn colour_difference(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(difference) if (0.001..=100.0).contains(&difference) => Ok(difference),
-        Ok(_) => Err("must be from 0.001 to 100; just unseen is 0.5".into()),
+        Ok(_) => Err("must be from 0.001 to 100; 0.5 is usual".into()),
         Err(_) => Err("not a number; write 0.5".into()),
     }
 }

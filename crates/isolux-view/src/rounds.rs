@@ -13,8 +13,10 @@ use rayon::prelude::*;
 /// `MARGIN` of the edge are not judged.
 const WINDOW: u32 = 64;
 const MARGIN: u32 = 16;
-/// Windows across and down a picture: enough for a mean, at a few per cent of the work.
-const WINDOWS: [u32; 2] = [4, 3];
+/// The side of the part of a picture that a window tells of: with it windows are a twentieth of the pixels.
+const PART: f64 = 286.0;
+/// The fewest windows.
+const FEWEST: u32 = 12;
 /// The share of pixels that [`Noise::few`] leaves out.
 const FEW: f64 = 0.01;
 
@@ -110,10 +112,22 @@ impl Rounds {
     }
 }
 
+/// How many windows there are across and down a picture.
+fn windows(size: Size) -> [u32; 2] {
+    let sides = [size.width(), size.height()].map(f64::from);
+    let mut counts = sides.map(|side| libm::round(side / PART).max(1.0) as u32);
+    while counts[0] * counts[1] < FEWEST {
+        let [across, down] = [0, 1].map(|k| sides[k] / f64::from(counts[k]));
+        counts[usize::from(down > across)] += 1;
+    }
+    counts
+}
+
 /// Windows by which the noise of one round is judged, and the size of each: one at a place of its own in every part of a
 /// picture. `None` for a picture so small that a second round costs little more.
 pub fn judged_windows(size: Size) -> Option<(Vec<Window>, Size)> {
-    let parts = [size.width() / WINDOWS[0], size.height() / WINDOWS[1]];
+    let counts = windows(size);
+    let parts = [size.width() / counts[0], size.height() / counts[1]];
     // Half of its pixels or more.
     if parts[0].min(parts[1]) < WINDOW || 2 * WINDOW * WINDOW > parts[0] * parts[1] {
         return None;
@@ -121,14 +135,14 @@ pub fn judged_windows(size: Size) -> Option<(Vec<Window>, Size)> {
     let own = Size::new(WINDOW, WINDOW).ok()?;
     let places = Sequence::new(Key::new(0));
     let part = |index: u32| {
-        let [column, row] = [index % WINDOWS[0], index / WINDOWS[0]];
+        let [column, row] = [index % counts[0], index / counts[0]];
         let [across, down] = places.pair(index, 0);
         let free = |side: u32, share: f64| (f64::from(side - WINDOW + 1) * share) as u32;
         let left = column * parts[0] + free(parts[0], across);
         let top = row * parts[1] + free(parts[1], down);
         Window { of: size, left, top }
     };
-    Some(((0..WINDOWS[0] * WINDOWS[1]).map(part).collect(), own))
+    Some(((0..counts[0] * counts[1]).map(part).collect(), own))
 }
 
 impl Noise {
@@ -221,15 +235,16 @@ mod tests {
 
     #[test]
     fn windows_lie_within_the_picture_and_small_pictures_have_none() {
-        for (width, height) in [(1280, 720), (400, 400), (7680, 4320)] {
+        for (width, height) in [(1280, 720), (400, 400), (640, 360), (5200, 288), (7680, 4320)] {
             let size = Size::new(width, height).unwrap();
             let (windows, own) = judged_windows(size).unwrap();
-            assert_eq!(windows.len(), 12);
+            let share = windows.len() as f64 * own.pixels() as f64 / size.pixels() as f64;
+            assert!(windows.len() >= 12 && share > 0.04, "{share}");
             for window in &windows {
                 assert!(window.left + own.width() <= width && window.top + own.height() <= height);
             }
         }
-        for (width, height) in [(320, 180), (5000, 100), (1, 1)] {
+        for (width, height) in [(320, 180), (1300, 72), (5000, 60), (1, 1)] {
             assert!(judged_windows(Size::new(width, height).unwrap()).is_none());
         }
     }

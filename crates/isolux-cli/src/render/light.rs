@@ -84,7 +84,7 @@ impl Opened {
             Some(light) => light,
             None => {
                 let accuracy = flags.accuracy.unwrap_or(DRAFT);
-                match solved(&flags.map, &scene, accuracy)? {
+                match solved((&flags.map, &flags.further), &scene, accuracy)? {
                     Some(map) => Light::Map(Box::new(map)),
                     None => return Ok(None),
                 }
@@ -173,13 +173,18 @@ fn by_cache(flags: &RenderFlags, path: &Path) -> Result<Opened, Failure> {
 }
 
 /// The map of a scene, in memory alone; nothing if the user stops the run.
-fn solved(path: &Path, scene: &Scene, accuracy: f64) -> Result<Option<IlluminationMap>, Failure> {
+fn solved(
+    (path, further): (&Path, &[PathBuf]),
+    scene: &Scene,
+    accuracy: f64,
+) -> Result<Option<IlluminationMap>, Failure> {
+    let further: String = further.iter().map(|file| format!(" {}", file.display())).collect();
     let place = path.display();
     note(
         Note::Info,
         format!(
             "{place} is a scene: it is solved to {} first, and the map is not kept; \
-             `isolux solve {place} -o map.glb` keeps one for more views",
+             `isolux solve {place}{further} -o map.glb` keeps one for more views",
             show_share(accuracy)
         ),
     );
