@@ -10,7 +10,9 @@ use crate::progress::Reporter;
 use crate::solving::Run;
 use crate::summary::{self, Lit};
 use crate::walk::{self, Opened};
-use crate::{explain, map_file, render, report, repository, solving, source, traced, viewpoint};
+use crate::{
+    explain, map_file, render, report, repository, saved_run, solving, source, traced, viewpoint,
+};
 use isolux::engine::SolveRequest;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -32,6 +34,8 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let run = Run { source: &path, output: &files.map, request: &request };
     let solved = solving::solve(&scene, &run, None, (&mut Reporter::new(None), None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;
+    // Nothing goes on with this run.
+    saved_run::keep(&files.map, &solved.solution.state, true)?;
     let camera = viewpoint::camera(&scene, None).map_err(Failure::bad_input)?;
     let (view, _) = traced::view(&scene, &solved.solution.map, &camera, PICTURE)?;
     let look = Look::usual(&scene);
