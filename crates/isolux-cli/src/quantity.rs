@@ -127,7 +127,7 @@ pub(crate) fn memory_bytes(text: &str) -> Result<u64, String> {
     match scaled(text, &MEMORY_UNITS) {
         // Above 2^63 a float no longer says which integer was meant.
         Some(bytes) if (1.0..9.2e18).contains(&bytes) => Ok(bytes as u64),
-        _ => Err("write a number and a unit: 500MiB, 8GiB".into()),
+        _ => Err("write a number and a unit, at least 1B: 500MB, 8GiB (B, kB, MB, GB, TB, KiB, MiB, GiB, TiB)".into()),
     }
 }
 

@@ -146,7 +146,7 @@ impl Report {
         let share = |s: Option<f64>| s.map_or("not known".to_owned(), show_share);
         let reached = match self.accuracy_target {
             Some(target) if !self.complete => {
-                format!("{} of the {} asked for", share(self.accuracy_reached), show_share(target))
+                format!("{}; {} was asked for", share(self.accuracy_reached), show_share(target))
             }
             _ => share(self.accuracy_reached),
         };
