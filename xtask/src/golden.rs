@@ -6,8 +6,9 @@
 mod cases;
 mod table;
 
+use crate::case::Case;
 use crate::peers;
-use cases::{CASES, Case};
+use cases::CASES;
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

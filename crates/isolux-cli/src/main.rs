@@ -15,6 +15,7 @@ mod compare;
 mod console;
 mod demo;
 mod dimming;
+mod ending;
 mod energy;
 mod engine_export;
 mod estimate;
@@ -74,7 +75,7 @@ mod viewpoint;
 mod walk;
 mod walk_export;
 
-use failure::{Failure, Outcome, exit_code};
+use failure::{Failure, Outcome};
 use flags::{Command, Flags, MaterialsName};
 use std::process::ExitCode;
 
@@ -83,15 +84,7 @@ fn main() -> ExitCode {
         Ok(flags) => flags,
         Err(code) => return code,
     };
-    let end = run(&flags);
-    if let Err(failure) = &end {
-        failure.lines().iter().for_each(|(kind, line)| notes::note(*kind, line));
-        if flags.json && !matches!(failure, Failure::ReaderGone) {
-            // Nobody may be there to read it.
-            let _ = console::print_json(&trouble::json(&failure.troubles(), exit_code(&end)));
-        }
-    }
-    ExitCode::from(exit_code(&end))
+    ExitCode::from(ending::tell(&run(&flags), flags.json))
 }
 
 fn run(flags: &Flags) -> Result<Outcome, Failure> {

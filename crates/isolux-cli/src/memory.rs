@@ -1,9 +1,8 @@
 //! How much memory the command may take, and its end where that does not do.
 
-use crate::console;
-use crate::notes::{Note, note};
+use crate::ending;
+use crate::failure::Failure;
 use crate::quantity::show_bytes;
-use crate::trouble::{self, Trouble};
 use isolux_memory::{Counted, Lack};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,8 +14,6 @@ static MEMORY: Counted = Counted;
 const USUAL: u64 = 8 << 30;
 /// What the program takes beside scenes and light.
 const PROGRAM: u64 = 64 << 20;
-/// The exit code of what the machine cannot do.
-const REFUSED: i32 = 4;
 
 /// What was asked for, bytes.
 static ASKED: OnceLock<u64> = OnceLock::new();
@@ -53,10 +50,6 @@ fn end(lack: Lack) -> ! {
          larger --accuracy, a simpler scene",
         show_bytes(all)
     );
-    note(Note::Refused, &what);
-    if IS_JSON.load(Ordering::Relaxed) {
-        // Nobody may be there to read it.
-        let _ = console::print_json(&trouble::json(&[Trouble::in_words(&what)], REFUSED as u8));
-    }
-    std::process::exit(REFUSED)
+    let code = ending::tell(&Err(Failure::Refused(what)), IS_JSON.load(Ordering::Relaxed));
+    std::process::exit(code.into())
 }

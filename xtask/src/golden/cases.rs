@@ -1,32 +1,7 @@
 //! The cases: every kind of scene by the method that does most there, exact scenes by all methods.
 
-/// A scene, and how it is solved.
-pub(super) struct Case {
-    pub(super) name: &'static str,
-    /// As `isolux solve` takes it, from the root of the workspace.
-    pub(super) scene: &'static str,
-    pub(super) method: &'static str,
-    pub(super) accuracy: &'static str,
-    pub(super) flags: &'static [&'static str],
-}
+use crate::case::{Case, MCGUIRE, case};
 
-const fn case(
-    name: &'static str,
-    scene: &'static str,
-    method: &'static str,
-    accuracy: &'static str,
-) -> Case {
-    Case { name, scene, method, accuracy, flags: &[] }
-}
-
-impl Case {
-    const fn with(mut self, flags: &'static [&'static str]) -> Self {
-        self.flags = flags;
-        self
-    }
-}
-
-const MCGUIRE: &str = "scenes/cornell_mcguire/scene.toml";
 const DEMO: &str = "scenes/demo/scene.toml";
 
 /// All of them: kinds of light and of surfaces, never two that differ in nothing but their numbers.

@@ -1,25 +1,6 @@
 //! What is solved: every method, a white room, and a map for every group.
 
-/// A scene, and how it is solved.
-pub(super) struct Case {
-    pub(super) name: &'static str,
-    /// As `isolux solve` takes it, from the root of the workspace.
-    pub(super) scene: &'static str,
-    pub(super) method: &'static str,
-    pub(super) accuracy: &'static str,
-    pub(super) flags: &'static [&'static str],
-}
-
-const fn case(
-    name: &'static str,
-    scene: &'static str,
-    method: &'static str,
-    accuracy: &'static str,
-) -> Case {
-    Case { name, scene, method, accuracy, flags: &[] }
-}
-
-const MCGUIRE: &str = "scenes/cornell_mcguire/scene.toml";
+use crate::case::{Case, MCGUIRE, case};
 
 /// Runs of seconds, which are disturbed. As many as there are faults have no factor in common with it.
 pub(super) const CASES: [Case; 6] = [
@@ -28,7 +9,7 @@ pub(super) const CASES: [Case; 6] = [
     case("radiosity", MCGUIRE, "radiosity", "3%"),
     case("cache", MCGUIRE, "cache", "4%"),
     case("white room", "benchmarks/reliability/white_room.toml", "hybrid", "1.5%"),
-    Case { flags: &["--group"], ..case("groups", "benchmarks/golden/groups.toml", "hybrid", "2%") },
+    case("groups", "benchmarks/golden/groups.toml", "hybrid", "2%").with(&["--group"]),
 ];
 
 /// A run that is long enough to be watched.

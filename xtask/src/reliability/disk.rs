@@ -1,10 +1,11 @@
 //! A full disk: the run says so, ends with exit code 4, and what was there before is kept.
 
-use super::cases::{CASES, Case, LONG};
+use super::cases::{CASES, LONG};
 use super::dice::Dice;
 use super::runs::{Bench, CHECKPOINT, Ended, MAP, ended, signal, start, wait};
 use super::told::Told;
 use super::watched::Watched;
+use crate::case::Case;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;

@@ -1,11 +1,12 @@
 //! States that are damaged, of another run or of another build: each is refused by its name, and nothing is overwritten.
 
-use super::cases::{Case, LONG};
+use super::cases::LONG;
 use super::dice::Dice;
 use super::runs::{Bench, CHECKPOINT, MAP, ended};
 use super::sealed::{damaged, in_format, with};
 use super::told::{Told, line};
 use super::watched::Watched;
+use crate::case::Case;
 use serde_json::{Value, json};
 use std::path::Path;
 

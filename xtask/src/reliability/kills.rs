@@ -1,9 +1,10 @@
 //! Runs that are stopped in every way, at any moment, and resumed: they end with the bytes of one that was never stopped.
 
-use super::cases::{CASES, Case};
+use super::cases::CASES;
 use super::dice::Dice;
 use super::runs::{Bench, Ended, Maps, ended, is_over, signal, start, wait};
 use super::told::Told;
+use crate::case::Case;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::process::Child;

@@ -1,6 +1,6 @@
 //! Runs of the command in a folder of their own, and what they leave there.
 
-use super::cases::Case;
+use crate::case::Case;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Read;

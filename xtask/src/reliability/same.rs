@@ -1,8 +1,9 @@
 //! The same bytes on any number of threads, by any instructions, however the command was built.
 
-use super::cases::{CASES, Case, SMALL};
+use super::cases::{CASES, SMALL};
 use super::runs::{Bench, Maps, ended};
 use super::told::Told;
+use crate::case::Case;
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::Command;

@@ -1,7 +1,7 @@
 //! A run whose words are read as it says them.
 
-use super::cases::Case;
 use super::runs::{Bench, CHECKPOINT, signal, start, wait};
+use crate::case::Case;
 use std::io::{BufRead, BufReader, Lines};
 use std::process::{Child, ChildStderr};
 

@@ -1,8 +1,8 @@
 //! Luminaires outside of closed rooms.
 
 use super::around::{all_around, extent_m};
-use isolux::geometry::{Direction, Point, Ray, Vector};
-use isolux::sampling::{Key, Sequence};
+use isolux::geometry::{Direction, Point, Ray};
+use isolux::sampling::{CosineHemisphere, Key, Sequence};
 use isolux::scene::{Body, Luminaire, LuminaireKind, Scene};
 
 /// Rays from a wall that must all meet something for the space before it to be closed. Of a space with an opening that is a tenth
@@ -45,9 +45,7 @@ fn faces_closed_space(scene: &Scene, triangle: u32, place: Point) -> bool {
     let from = place + front.to_vector() * off_m;
     let sequence = Sequence::new(Key::new(3));
     (0..INWARD).all(|index| {
-        let [a, b] = sequence.pair(index, 0);
-        let (radius, turn) = (a.sqrt(), std::f64::consts::TAU * b);
-        let local = Vector::new(radius * turn.cos(), radius * turn.sin(), (1.0 - a).sqrt());
+        let local = CosineHemisphere::sample(sequence.pair(index, 0));
         let hit = scene.bvh().closest_hit(&Ray::new(from, front.from_local(local)));
         // Light comes in through glass.
         hit.is_some_and(|hit| !matches!(scene.material(hit.triangle).body, Body::Dielectric(_)))

@@ -108,7 +108,7 @@ fn noise_of_first(
     let (second, _) = watched.round((from, size), 1, None)?;
     rounds.add(&second);
     let noise = rounds.noise(how).map_err(Failure::bad_input)?;
-    noise.ok_or_else(|| Failure::Refused("two rounds have a difference".to_owned()))
+    Ok(noise.expect("there are two rounds"))
 }
 
 fn two_digits(value: f64) -> String {
