@@ -13,6 +13,7 @@ mod judge;
 mod lamps;
 mod page;
 mod peers;
+mod python;
 mod reliability;
 mod sanitize;
 mod sbom;
@@ -35,6 +36,7 @@ cargo xtask page    of it, the tests of the walk-through's page, and whether its
 cargo xtask walk    of it, the walk-through in Chromium, beside what the command says of the same maps
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
+cargo xtask python  of it, the wheel of the package for Python, its tests and its types
 cargo xtask compared      of --all, all systems by error against time, as short as it can be
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
@@ -68,6 +70,7 @@ fn main() -> ExitCode {
         ["page"] => page::run(root),
         ["walk"] => walk::run(root),
         ["lamps"] => lamps::run(root),
+        ["python"] => python::run(root),
         ["golden", ref arguments @ ..] => golden::run(root, arguments),
         ["reliability", ref arguments @ ..] => reliability::run(root, arguments),
         ["colours"] => colours::run(root),

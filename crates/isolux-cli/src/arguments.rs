@@ -6,15 +6,14 @@ use crate::trouble::{self, Trouble};
 use clap::Parser;
 use clap::error::ErrorKind;
 use std::ffi::OsString;
-use std::process::ExitCode;
 
 /// The exit code of arguments that are wrong.
 const BAD_INPUT: u8 = 2;
 
 /// Reads the arguments. Where they ask for help or are wrong, it prints that and gives the exit code.
-pub(crate) fn read(words: impl Iterator<Item = OsString>) -> Result<Flags, ExitCode> {
-    let words: Vec<OsString> = words.map(flags::with_two_dashes).collect();
-    Flags::try_parse_from(&words).map_err(|error| {
+pub(crate) fn read(words: impl Iterator<Item = OsString>) -> Result<Flags, u8> {
+    let words: Vec<OsString> = words.collect();
+    parsed(&words).map_err(|error| {
         // Nobody may be there to read it.
         let _ = error.print();
         let is_help = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
@@ -22,8 +21,17 @@ pub(crate) fn read(words: impl Iterator<Item = OsString>) -> Result<Flags, ExitC
             let troubles = [of_arguments(&error)];
             let _ = console::print_json(&trouble::json(&troubles, BAD_INPUT));
         }
-        ExitCode::from(if is_help { 0 } else { BAD_INPUT })
+        if is_help { 0 } else { BAD_INPUT }
     })
+}
+
+/// The same without a word: help is wrong, too.
+pub(crate) fn of_call(words: &[OsString]) -> Result<Flags, Trouble> {
+    parsed(words).map_err(|error| of_arguments(&error))
+}
+
+fn parsed(words: &[OsString]) -> Result<Flags, clap::Error> {
+    Flags::try_parse_from(words.iter().cloned().map(flags::with_two_dashes))
 }
 
 /// Whether `--json` is among words that cannot be read as flags.

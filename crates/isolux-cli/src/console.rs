@@ -1,5 +1,6 @@
 //! What is printed on standard output: results.
 
+use crate::caller::{self, Told};
 use crate::failure::Failure;
 use crate::shown::{cut, json_text, lines, plain};
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle, presets};
@@ -13,6 +14,10 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 
 /// Prints text of our own to standard output, as it is.
 pub(crate) fn print_raw(text: &str) -> Result<(), Failure> {
+    if caller::here().is_some() {
+        // It has asked for JSON, or for nothing.
+        return Ok(());
+    }
     let mut out = std::io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     written.map_err(unprintable)
@@ -28,6 +33,10 @@ fn unprintable(error: std::io::Error) -> Failure {
 /// Prints one JSON value and a line end to standard output, as it is made: there may be millions
 /// of readings.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    if let Some(call) = caller::here() {
+        let made = serde_json::to_string(value).map_err(std::io::Error::from);
+        return made.map(|json| call.tell(Told::Json(json))).map_err(unprintable);
+    }
     let mut out = Plainly(std::io::BufWriter::new(std::io::stdout().lock()));
     let made = serde_json::to_writer_pretty(&mut out, value).map_err(std::io::Error::from);
     made.and_then(|()| writeln!(out)).and_then(|()| out.flush()).map_err(unprintable)

@@ -22,7 +22,8 @@ pub(crate) enum Outcome {
 
 /// A run without a result.
 #[derive(Debug)]
-pub(crate) enum Failure {
+#[non_exhaustive]
+pub enum Failure {
     /// Problems that the user can mend.
     BadInput(Vec<Trouble>),
     /// What the machine cannot do: memory, space.
@@ -57,7 +58,7 @@ impl Failure {
     }
 
     /// All problems.
-    pub(crate) fn troubles(&self) -> Vec<Trouble> {
+    pub fn troubles(&self) -> Vec<Trouble> {
         match self {
             Self::BadInput(troubles) => troubles.clone(),
             Self::Refused(why) => vec![Trouble::in_words(why)],
@@ -69,11 +70,22 @@ impl Failure {
 /// The exit code, as documented in the README.
 pub(crate) fn exit_code(end: &Result<Outcome, Failure>) -> u8 {
     match end {
-        Ok(Outcome::Done) | Err(Failure::ReaderGone) => 0,
-        Ok(Outcome::CheckFailed) => 1,
-        Ok(Outcome::Unusable) | Err(Failure::BadInput(_)) => 2,
-        Ok(Outcome::StoppedEarly) => 3,
+        Ok(outcome) => outcome.exit_code(),
+        Err(Failure::ReaderGone) => 0,
+        Err(Failure::BadInput(_)) => 2,
         Err(Failure::Refused(_)) => 4,
-        Ok(Outcome::Interrupted) => 130,
+    }
+}
+
+impl Outcome {
+    /// The exit code that tells of it.
+    pub(crate) const fn exit_code(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::CheckFailed => 1,
+            Self::Unusable => 2,
+            Self::StoppedEarly => 3,
+            Self::Interrupted => 130,
+        }
     }
 }

@@ -98,6 +98,17 @@ pub(crate) enum Command {
 }
 
 impl Command {
+    /// How many threads are asked for.
+    pub(crate) fn threads(&self) -> Option<u16> {
+        match self {
+            Self::Solve(flags) => flags.threads,
+            Self::Export(flags) => flags.threads,
+            Self::Bake(flags) => flags.threads,
+            Self::Compare(flags) => flags.threads,
+            _ => None,
+        }
+    }
+
     /// What a command reads, and the files that make up one scene with it.
     pub(crate) fn read_together(&self) -> Option<(&Path, &[PathBuf])> {
         let (first, further) = match self {

@@ -1,5 +1,6 @@
 //! Ctrl-C and termination while a map is computed.
 
+use crate::caller;
 use crate::failure::Failure;
 use crate::notes::{Note, note};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,6 +20,9 @@ impl Interrupt {
     /// From now on the first signal asks for an end with a valid map, the second ends at once. Runs
     /// one after another have one in common: who was stopped in one does not begin another.
     pub(crate) fn install() -> Result<Self, Failure> {
+        if let Some(call) = caller::here() {
+            return Ok(Self { is_requested: call.wants_end(), ends_at_once: Arc::default() });
+        }
         if let Some(installed) = INSTALLED.get() {
             return Ok(installed.clone());
         }

@@ -1,5 +1,6 @@
 //! Map files.
 
+use crate::caller::{self, Told};
 use crate::failure::Failure;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
@@ -11,11 +12,14 @@ use std::path::Path;
 
 /// Whether a file is a map and not a scene.
 pub(crate) fn is_map(path: &Path) -> bool {
-    map_glb::is_map(path)
+    caller::here().is_some_and(|call| call.map(path).is_some()) || map_glb::is_map(path)
 }
 
 /// Reads a map with the scene in it, which is not refused by [`check_place`].
 pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
+    if let Some(given) = given(path) {
+        return Ok(given);
+    }
     refuse_builtin(path)?;
     let loaded = map_glb::read(path).map_err(bad_file)?;
     show_warnings(&loaded.warnings);
@@ -25,11 +29,19 @@ pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
 
 /// The same with the texels that the file holds.
 pub(crate) fn read_with_texels(path: &Path) -> Result<MapFile, Failure> {
+    if let Some((scene, map)) = given(path) {
+        return Ok(MapFile { scene, map, lightmap: None });
+    }
     refuse_builtin(path)?;
     let loaded = map_glb::read_with_texels(path).map_err(bad_file)?;
     show_warnings(&loaded.warnings);
     check_place(path, &loaded.value.scene)?;
     Ok(loaded.value)
+}
+
+/// What a caller has in memory.
+fn given(path: &Path) -> Option<(Scene, IlluminationMap)> {
+    caller::here()?.map(path).cloned()
 }
 
 /// Scenes that are built in are no maps.
@@ -49,10 +61,18 @@ pub(crate) fn write(
     scene: &Scene,
     map: &IlluminationMap,
 ) -> Result<(), Failure> {
-    let preview = Preview::automatic(scene, map);
-    let bytes = map_glb::write(scene, map, &preview)
-        .map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
+    let bytes = bytes(output.path(), scene, map)?;
+    if let Some(call) = caller::here() {
+        call.tell(Told::Map(output.path().to_owned(), Box::new((scene.clone(), map.clone()))));
+    }
     output.write(&bytes)
+}
+
+/// A map with its scene as a file.
+pub(crate) fn bytes(path: &Path, scene: &Scene, map: &IlluminationMap) -> Result<Vec<u8>, Failure> {
+    let preview = Preview::automatic(scene, map);
+    map_glb::write(scene, map, &preview)
+        .map_err(|e| Failure::Refused(format!("{}: {e}", path.display())))
 }
 
 /// Says so where standard errors of readings are infinite, as the map does not know its own.

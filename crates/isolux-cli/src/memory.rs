@@ -1,5 +1,6 @@
 //! How much memory the command may take, and its end where that does not do.
 
+use crate::caller;
 use crate::ending;
 use crate::failure::Failure;
 use crate::quantity::show_bytes;
@@ -29,14 +30,19 @@ pub(crate) fn bound(asked: Option<u64>, json: bool) {
     }
 }
 
+/// What was asked for of the command, or in a call.
+fn asked() -> Option<u64> {
+    caller::here().map_or_else(|| ASKED.get().copied(), |call| call.max_memory)
+}
+
 /// Memory for the elements and the rays of a map, bytes. Of what was asked for the scene, readers and what is written take the other half.
 pub(crate) fn of_map() -> u64 {
-    ASKED.get().map_or(USUAL, |bytes| bytes / 2)
+    asked().map_or(USUAL, |bytes| bytes / 2)
 }
 
 /// Memory for a lightmap, bytes.
 pub(crate) fn of_lightmap() -> u64 {
-    ASKED.get().copied().unwrap_or(USUAL)
+    asked().unwrap_or(USUAL)
 }
 
 fn end(lack: Lack) -> ! {

@@ -1,5 +1,6 @@
 //! How far work is whose end can be foreseen: a bar on a terminal, else a line now and then, or JSON lines.
 
+use crate::caller;
 use crate::flags::ProgressStyle as Asked;
 use crate::notes::{self, Note, note};
 use crate::quantity::{show_seconds, show_share};
@@ -45,6 +46,7 @@ impl Meter {
     pub(crate) fn new(what: impl Into<String>, asked: Option<Asked>) -> Self {
         let on_terminal = || std::io::stderr().is_terminal() && !notes::are_json();
         let shape = match asked {
+            _ if caller::here().is_some() => Shape::Silent,
             Some(Asked::Json) => Shape::Json,
             Some(Asked::None) => Shape::Silent,
             Some(Asked::Bar) => Shape::Bar(bar(BAR_STEPS)),

@@ -1,6 +1,7 @@
 //! What is printed on standard error: everything but results.
 
-use crate::shown::{json_text, sentence};
+use crate::caller::{self, Told};
+use crate::shown::{json_text, plain, sentence};
 use anstyle::{AnsiColor, Style};
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -66,11 +67,16 @@ impl Note {
 /// Prints a line for the user to standard error, in colour where a terminal shows it: `NO_COLOR` and `CLICOLOR_FORCE`
 /// decide before that.
 pub(crate) fn note(kind: Note, text: impl std::fmt::Display) {
-    let _ = writeln!(anstream::stderr(), "{}", kind.line(&text.to_string(), are_json()));
+    let text = text.to_string();
+    if let Some(call) = caller::here() {
+        return call.tell(Told::Note(kind.name(), plain(&text).into_owned()));
+    }
+    let _ = writeln!(anstream::stderr(), "{}", kind.line(&text, are_json()));
 }
 
 /// Prints a line of JSON to standard error. Nobody may be there to read it.
 pub(crate) fn line(line: impl std::fmt::Display) {
+    debug_assert!(caller::here().is_none(), "a caller asks for no lines");
     let _ = writeln!(std::io::stderr(), "{}", json_text(&line.to_string()));
 }
 

@@ -9,12 +9,14 @@ use crate::output::OutputPath;
 use crate::unlit::{known_dark, without_unknown};
 use crate::{beside, map_file, points, source};
 use isolux::engine::{ExactSettings, MapReader, PathTracer, ProbePoint};
-use isolux::map::Illuminance;
+use isolux::map::{Illuminance, IlluminationMap};
+use isolux::scene::Scene;
 use isolux_formats::rad::irradiance_lines;
 use isolux_formats::{Digits, counted};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt::Write;
+use std::path::Path;
 
 /// One a point, in the order asked; `None` where it is not known.
 type Values = Vec<Option<Illuminance>>;
@@ -74,6 +76,17 @@ fn write_irradiances(output: &OutputPath, values: &Values) -> Result<(), Failure
     output.write(irradiance_lines(known.iter().map(Illuminance::total_lx)).as_bytes())
 }
 
+/// How a map is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Direct light afresh, indirect light afresh where the map is not to be trusted.
+    Probe,
+    /// All light afresh.
+    Exact,
+    /// All light as the map has it.
+    Interpolated,
+}
+
 fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Found, Failure> {
     let unused = [("--paths", flags.paths.is_some()), ("--seed", flags.seed.is_some())];
     refuse(flags, &unused, "a map, whose points are not traced; leave it out or give a scene")?;
@@ -81,25 +94,39 @@ fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Found, Failure>
     if !flags.interpolated {
         map_file::warn_of_unknown_error(&flags.source, &map);
     }
-    let reader = MapReader::new(&scene, &map);
+    let way = match (flags.exact, flags.interpolated) {
+        (true, _) => Way::Exact,
+        (_, true) => Way::Interpolated,
+        _ => Way::Probe,
+    };
+    let values = readings((&scene, &map), points, way);
+    let (ambient_lx, light) = (map.ambient_lx().luminance(), Maintained::of(&scene));
+    Ok(Found { values, ambient_lx, light })
+}
+
+/// Reads a map at points, and tells of those where nothing is known.
+pub(crate) fn readings(
+    (scene, map): (&Scene, &IlluminationMap),
+    points: &[ProbePoint],
+    way: Way,
+) -> Values {
+    let reader = MapReader::new(scene, map);
     let exactly = |at| Some(reader.estimate(at, &ExactSettings::default()));
     let dark = |at| {
         let is_on_surface = reader.is_on_surface(at);
-        is_on_surface.then(|| known_dark((&scene, &reader), at)).flatten()
+        is_on_surface.then(|| known_dark((scene, &reader), at)).flatten()
     };
-    let read = |at: &ProbePoint| match (flags.exact, flags.interpolated) {
-        (true, _) => beside::read(&scene, *at, exactly),
-        (_, true) => reader.interpolated(*at),
-        _ => reader.probe(*at).or_else(|| dark(*at)),
+    let read = |at: &ProbePoint| match way {
+        Way::Exact => beside::read(scene, *at, exactly),
+        Way::Interpolated => reader.interpolated(*at),
+        Way::Probe => reader.probe(*at).or_else(|| dark(*at)),
     };
-    let mut values: Values = points.par_iter().map(read).collect();
-    if flags.exact {
-        values = without_unknown(&scene, points, values);
-    } else {
-        tell_of_unknown(&values);
+    let values: Values = points.par_iter().map(read).collect();
+    if way == Way::Exact {
+        return without_unknown(scene, points, values);
     }
-    let (ambient_lx, light) = (map.ambient_lx().luminance(), Maintained::of(&scene));
-    Ok(Found { values, ambient_lx, light })
+    tell_of_unknown(&values);
+    values
 }
 
 fn tell_of_unknown(values: &Values) {
@@ -117,10 +144,20 @@ fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Found, Failu
     let unused = [("--exact", flags.exact), ("--interpolated", flags.interpolated)];
     refuse(flags, &unused, "a scene, which has no map to read; leave it out or give a map")?;
     let scene = source::read_scene(&flags.source)?;
+    let values = traced((&scene, &flags.source), points, &settings(flags.paths, flags.seed))?;
+    Ok(Found { values, ambient_lx: 0.0, light: Maintained::of(&scene) })
+}
+
+/// Traces paths of a scene at points, and tells of those where nothing is known.
+pub(crate) fn traced(
+    (scene, source): (&Scene, &Path),
+    points: &[ProbePoint],
+    settings: &ExactSettings,
+) -> Result<Values, Failure> {
     if scene.luminaires().is_empty() && scene.area_luminaires().is_empty() {
-        return Err(source::no_light(&flags.source, &scene));
+        return Err(source::no_light(source, scene));
     }
-    let tracer = PathTracer::new(&scene);
+    let tracer = PathTracer::new(scene);
     if tracer.leaves_caustics() {
         note(
             Note::Warning,
@@ -128,11 +165,9 @@ fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Found, Failu
              errors; solve for a map to have it",
         );
     }
-    let settings = settings(flags);
-    let trace = |at| Some(tracer.estimate(at, &settings));
-    let traced = points.par_iter().map(|at| beside::read(&scene, *at, trace)).collect();
-    let values = without_unknown(&scene, points, traced);
-    Ok(Found { values, ambient_lx: 0.0, light: Maintained::of(&scene) })
+    let trace = |at| Some(tracer.estimate(at, settings));
+    let traced = points.par_iter().map(|at| beside::read(scene, *at, trace)).collect();
+    Ok(without_unknown(scene, points, traced))
 }
 
 /// Flags that the source has no use for are mistakes.
@@ -146,11 +181,11 @@ fn refuse(flags: &ProbeFlags, unused: &[(&str, bool)], reason: &str) -> Result<(
 }
 
 /// As many replicates as there are without a word, of so many paths that all are traced.
-fn settings(flags: &ProbeFlags) -> ExactSettings {
+pub(crate) fn settings(paths: Option<u32>, seed: Option<u64>) -> ExactSettings {
     let default = ExactSettings::default();
     ExactSettings {
-        rays: flags.paths.map_or(default.rays, |paths| paths.div_ceil(default.replicates)),
-        seed: flags.seed.unwrap_or(default.seed),
+        rays: paths.map_or(default.rays, |paths| paths.div_ceil(default.replicates)),
+        seed: seed.unwrap_or(default.seed),
         ..default
     }
 }

@@ -1,5 +1,6 @@
 //! Progress on standard error: a bar, lines, or JSON lines.
 
+use crate::caller::{self, Told};
 use crate::flags::ProgressStyle;
 use crate::meter::bar;
 use crate::notes::{self, Note, note};
@@ -28,6 +29,7 @@ enum Shape {
     Bar(ProgressBar),
     Lines,
     Json,
+    Caller,
     Silent,
 }
 
@@ -35,6 +37,7 @@ impl Reporter {
     /// As asked for; otherwise a bar where there is a terminal.
     pub(crate) fn new(asked: Option<ProgressStyle>) -> Self {
         let shape = match asked {
+            _ if caller::here().is_some() => Shape::Caller,
             Some(ProgressStyle::Json) => Shape::Json,
             Some(ProgressStyle::None) => Shape::Silent,
             Some(ProgressStyle::Bar) => Shape::Bar(bar(BAR_STEPS)),
@@ -47,7 +50,7 @@ impl Reporter {
     /// Shows a state, unless another was shown just before.
     pub(crate) fn show(&mut self, progress: &Progress) {
         let pause_s = match self.shape {
-            Shape::Bar(_) => 0.0,
+            Shape::Bar(_) | Shape::Caller => 0.0,
             Shape::Lines => LINE_EVERY_S,
             Shape::Json => JSON_EVERY_S,
             Shape::Silent => return,
@@ -64,6 +67,16 @@ impl Reporter {
             Shape::Lines => note(Note::Info, line(progress)),
             Shape::Json => {
                 notes::line(serde_json::to_string(&Report::of(progress)).unwrap_or_default());
+            }
+            Shape::Caller => {
+                let told = ForCaller {
+                    report: Report::of(progress),
+                    share: share_done(progress),
+                    text: line(progress),
+                };
+                if let (Some(call), Ok(json)) = (caller::here(), serde_json::to_string(&told)) {
+                    call.tell(Told::Progress(json));
+                }
             }
             Shape::Silent => {}
         }
@@ -142,6 +155,15 @@ struct Report {
     finish_s: Option<f64>,
     finish_earliest_s: Option<f64>,
     finish_latest_s: Option<f64>,
+}
+
+/// The same for a caller.
+#[derive(Serialize)]
+struct ForCaller {
+    #[serde(flatten)]
+    report: Report,
+    share: f64,
+    text: String,
 }
 
 impl Report {

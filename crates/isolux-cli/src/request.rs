@@ -6,6 +6,7 @@ use crate::memory;
 use crate::output::OutputPath;
 use isolux::engine::{IrradianceCache, RadiositySettings, SolveRequest};
 use isolux::map::Method;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Stack of a thread: as much as the first one of a process has.
 const STACK_BYTES: usize = 8 << 20;
@@ -111,10 +112,19 @@ fn accuracy(quality: Quality) -> f64 {
 
 /// From now on computations use this many threads.
 pub(crate) fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
-    rayon::ThreadPoolBuilder::new()
-        // None: as many as there are processors, or as the environment says.
-        .num_threads(threads.map_or(0, usize::from))
-        .stack_size(STACK_BYTES)
-        .build_global()
-        .map_err(|e| Failure::Refused(format!("cannot start threads: {e}")))
+    builder(threads).build_global().map_err(cannot_start)
+}
+
+/// This many threads for one call: they end with it, so that a process may be forked between two.
+pub(crate) fn threads_of_call(threads: Option<u16>) -> Result<ThreadPool, Failure> {
+    builder(threads).build().map_err(cannot_start)
+}
+
+fn builder(threads: Option<u16>) -> ThreadPoolBuilder {
+    // None: as many as there are processors, or as the environment says.
+    ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).stack_size(STACK_BYTES)
+}
+
+fn cannot_start(error: rayon::ThreadPoolBuildError) -> Failure {
+    Failure::Refused(format!("cannot start threads: {error}"))
 }

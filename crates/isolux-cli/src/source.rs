@@ -1,8 +1,11 @@
 //! Scenes by path or by name.
 
+use crate::caller;
 use crate::failure::Failure;
+use crate::flags::{Flags, MaterialsName};
 use crate::notes::{Note, note};
 use crate::origin::{Extent, Remoteness};
+use crate::reading::Reading;
 use crate::trouble::Trouble;
 use isolux::scene::{Scene, SceneParts, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
@@ -10,57 +13,45 @@ use isolux_formats::obj::Materials;
 use isolux_formats::{Loaded, Problem, Problems, Reach};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What comes before the name of a scene that is built in.
 const BUILTIN: &str = "builtin:";
 
-/// Whether materials of other formats are read by their letter.
-static MATERIALS_ARE_AS_WRITTEN: AtomicBool = AtomicBool::new(false);
-
-/// From now on materials of other formats are read by their letter.
-pub(crate) fn read_materials_as_written() {
-    MATERIALS_ARE_AS_WRITTEN.store(true, Ordering::Relaxed);
+/// How flags ask for it, if all files that are to be read together are of the kind that can be.
+pub(crate) fn reading_of(flags: &Flags) -> Result<Reading, Failure> {
+    let mut reading = Reading {
+        as_written: flags.materials == MaterialsName::AsWritten,
+        allow_outside: flags.allow_outside,
+        further: Vec::new(),
+    };
+    if let Some((first, further)) = flags.command.read_together() {
+        isolux_formats::check_together(&together(first, further)).map_err(bad_file)?;
+        reading.further = further.to_owned();
+    }
+    Ok(reading)
 }
 
-/// Whether scenes may name files outside of their folders.
-static OUTSIDE_IS_ALLOWED: AtomicBool = AtomicBool::new(false);
+/// What the command was asked for.
+static ASKED: OnceLock<Reading> = OnceLock::new();
 
-/// From now on scenes may name files anywhere on this machine.
-pub(crate) fn allow_outside() {
-    OUTSIDE_IS_ALLOWED.store(true, Ordering::Relaxed);
+/// From now on scenes are read like this.
+pub(crate) fn read_as(reading: Reading) {
+    // It is said once, before anything is read.
+    let _ = ASKED.set(reading);
+}
+
+fn reading() -> Reading {
+    let asked = caller::here().map(|call| call.reading.clone()).or_else(|| ASKED.get().cloned());
+    asked.unwrap_or_default()
 }
 
 /// Which files a scene may name.
 pub(crate) fn reach() -> Reach {
-    match OUTSIDE_IS_ALLOWED.load(Ordering::Relaxed) {
-        true => Reach::Anywhere,
-        false => Reach::Inside,
-    }
-}
-
-/// Files that make up one scene with the one that a command reads.
-static FURTHER_FILES: OnceLock<Vec<PathBuf>> = OnceLock::new();
-
-/// From now on scenes are read together with further files, if all are of the kind that can be.
-pub(crate) fn read_together(first: &Path, further: &[PathBuf]) -> Result<(), Failure> {
-    let files = together(first, further);
-    isolux_formats::check_together(&files).map_err(bad_file)?;
-    // It is said once, before anything is read.
-    let _ = FURTHER_FILES.set(further.to_owned());
-    Ok(())
+    if reading().allow_outside { Reach::Anywhere } else { Reach::Inside }
 }
 
 fn together<'a>(first: &'a Path, further: &'a [PathBuf]) -> Vec<&'a Path> {
     std::iter::once(first).chain(further.iter().map(PathBuf::as_path)).collect()
-}
-
-/// How materials of other formats are read.
-fn materials() -> Materials {
-    match MATERIALS_ARE_AS_WRITTEN.load(Ordering::Relaxed) {
-        true => Materials::AsWritten,
-        false => Materials::AsMeant,
-    }
 }
 
 /// Reads a scene to compute light in it, and says on standard error what its reader left out or guessed.
@@ -85,6 +76,9 @@ pub(crate) fn check_place(source: &Path, scene: &Scene) -> Result<(), Failure> {
 
 /// Reads a scene.
 pub(crate) fn read_scene_with_warnings(source: &Path) -> Result<Loaded<Scene>, Failure> {
+    if let Some(scene) = caller::here().and_then(|call| call.scene(source)) {
+        return Ok(Loaded { value: scene, warnings: Vec::new() });
+    }
     let Loaded { value, warnings } = read_parts(source)?;
     let value = Scene::assemble(value).map_err(|problems| bad_scene(source, problems))?;
     Ok(Loaded { value, warnings })
@@ -100,6 +94,11 @@ fn bad_scene(file: &Path, problems: Vec<SceneProblem>) -> Failure {
     bad_file(Problems(problems.into_iter().map(problem).collect()))
 }
 
+/// Whether a scene was handed in by this name.
+pub(crate) fn is_handed_in(source: &Path) -> bool {
+    caller::here().is_some_and(|call| call.has_scene(source))
+}
+
 /// Whether this names a scene that is built in, or should.
 pub(crate) fn is_builtin(source: &Path) -> bool {
     source.to_str().is_some_and(|name| name.starts_with(BUILTIN))
@@ -107,12 +106,15 @@ pub(crate) fn is_builtin(source: &Path) -> bool {
 
 /// Reads what a scene is made of.
 pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
-    if let Some(further) = FURTHER_FILES.get() {
-        return isolux_formats::load_several(&together(source, further), reach()).map_err(bad_file);
+    let Reading { as_written, further, .. } = reading();
+    if !further.is_empty() {
+        return isolux_formats::load_several(&together(source, &further), reach())
+            .map_err(bad_file);
     }
+    let materials = if as_written { Materials::AsWritten } else { Materials::AsMeant };
     match source.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {
         Some(name) => built_in(name).map(|value| Loaded { value, warnings: Vec::new() }),
-        None => isolux_formats::load_with(source, materials(), reach()).map_err(bad_file),
+        None => isolux_formats::load_with(source, materials, reach()).map_err(bad_file),
     }
 }
 

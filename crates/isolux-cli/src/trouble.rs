@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// One problem.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub(crate) struct Trouble {
+pub struct Trouble {
     /// All of it in one line, as it is printed.
     pub message: String,
     /// The file that it is about.

@@ -3,8 +3,6 @@
 use super::finding::Finding;
 use super::tree::Tree;
 
-const READERS: &[&str] = &["isolux", "isolux-formats", "isolux-compare", "isolux-view"];
-
 const COMMAND: &[&str] =
     &["isolux", "isolux-formats", "isolux-compare", "isolux-memory", "isolux-view", "isolux-serve"];
 
@@ -18,7 +16,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("isolux-memory", &[]),
     ("isolux-serve", &[]),
     ("isolux-cli", COMMAND),
-    ("isolux-python", READERS),
+    ("isolux-python", &["isolux", "isolux-cli"]),
     ("isolux-bench", &["isolux-compare", "isolux-geometry"]),
 ];
 

@@ -152,7 +152,9 @@ impl Lit {
 
 /// Whether this is a scene to be solved first, and not a map.
 fn is_scene(path: &Path) -> bool {
-    source::is_builtin(path) || path.exists() && !map_file::is_map(path)
+    source::is_builtin(path)
+        || source::is_handed_in(path)
+        || path.exists() && !map_file::is_map(path)
 }
 
 fn by_cache(flags: &RenderFlags, path: &Path) -> Result<Opened, Failure> {

@@ -5,6 +5,7 @@ mod outputs;
 mod refined;
 mod report;
 
+use crate::caller::{self, Told};
 use crate::console::{print, print_json};
 use crate::exposed;
 use crate::failure::{Failure, Outcome};
@@ -154,6 +155,9 @@ fn fitted((width, height): (u32, u32), aspect: Option<f64>) -> (u32, u32) {
 
 /// Writes a picture.
 pub(crate) fn write(output: &OutputPath, picture: &Picture) -> Result<(), Failure> {
+    if let Some(call) = caller::here() {
+        call.tell(Told::Picture(picture.clone()));
+    }
     let Picture { width, height, rgb, icc } = picture;
     let bytes = isolux_formats::png::encode_profiled(*width, *height, rgb, icc.as_deref())
         .map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
@@ -171,6 +175,9 @@ fn write_luminance(output: &OutputPath, kind: Kind, view: &LuminanceImage) -> Re
         _ => encode_radiance(&luminances),
     };
     let bytes = bytes.map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
+    if let Some(call) = caller::here() {
+        call.tell(Told::Luminances { width, height, rgb_cd_m2 });
+    }
     output.write(&bytes)
 }
 

@@ -1,0 +1,124 @@
+//! A program that has the command work in its own process, in place of a terminal: it hands in scenes and maps, is told what
+//! terminals show and given what files get.
+
+use crate::reading::Reading;
+use isolux::map::IlluminationMap;
+use isolux::scene::Scene;
+use isolux_view::Picture;
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Who has work done.
+pub struct Caller {
+    /// What is in memory already, each by the name that words refer to it by.
+    pub given: Vec<(PathBuf, Given)>,
+    /// Whether the work is to end, with what it has come to.
+    pub wants_end: Arc<AtomicBool>,
+    /// Hears of all, on the thread that works.
+    pub tell: Box<dyn Fn(Told) + Send + Sync>,
+}
+
+/// What need not be read from a file.
+#[derive(Clone)]
+pub enum Given {
+    /// A scene.
+    Scene(Arc<Scene>),
+    /// A map with its scene.
+    Map(Arc<(Scene, IlluminationMap)>),
+}
+
+/// What a caller is told.
+pub enum Told {
+    /// A line for people, and what it is: `error`, `refused`, `warning` or `note`.
+    Note(&'static str, String),
+    /// How far a run is: the object of `solve --progress json`, with `text`, the line for people, and `share`, the time passed over
+    /// the time predicted.
+    Progress(String),
+    /// What `--json` prints.
+    Json(String),
+    /// A map that is written to this file.
+    Map(PathBuf, Box<(Scene, IlluminationMap)>),
+    /// A picture that is written.
+    Picture(Picture),
+    /// Luminances that are written, cd/m2, row by row from the top.
+    Luminances {
+        /// In pixels.
+        width: u32,
+        /// In pixels.
+        height: u32,
+        /// Of every pixel, in linear Rec. 709.
+        rgb_cd_m2: Vec<[f32; 3]>,
+    },
+}
+
+/// Work for a caller.
+pub(crate) struct Call {
+    pub(crate) caller: Caller,
+    /// How scenes are read in it.
+    pub(crate) reading: Reading,
+    /// Bytes that a map or a lightmap may take.
+    pub(crate) max_memory: Option<u64>,
+}
+
+thread_local! {
+    static HERE: RefCell<Option<Rc<Call>>> = const { RefCell::new(None) };
+}
+
+/// The call that this thread works for.
+pub(crate) fn here() -> Option<Rc<Call>> {
+    HERE.with_borrow(Clone::clone)
+}
+
+/// Works for a caller.
+pub(crate) fn called<T>(call: Call, work: impl FnOnce() -> T) -> T {
+    /// Ends the call however the work ends.
+    struct End;
+    impl Drop for End {
+        fn drop(&mut self) {
+            HERE.set(None);
+        }
+    }
+    HERE.set(Some(Rc::new(call)));
+    let _end = End;
+    work()
+}
+
+impl Call {
+    /// Tells the caller.
+    pub(crate) fn tell(&self, told: Told) {
+        (self.caller.tell)(told);
+    }
+
+    /// Whether the work is to end.
+    pub(crate) fn wants_end(&self) -> Arc<AtomicBool> {
+        self.caller.wants_end.clone()
+    }
+
+    /// Whether a scene was handed in by this name.
+    pub(crate) fn has_scene(&self, name: &Path) -> bool {
+        matches!(self.given(name), Some(Given::Scene(_)))
+    }
+
+    /// A scene that was handed in by this name.
+    pub(crate) fn scene(&self, name: &Path) -> Option<Scene> {
+        match self.given(name)? {
+            Given::Scene(scene) => Some(Scene::clone(scene)),
+            Given::Map(_) => None,
+        }
+    }
+
+    /// A map that was handed in by this name.
+    pub(crate) fn map(&self, name: &Path) -> Option<&(Scene, IlluminationMap)> {
+        match self.given(name)? {
+            Given::Scene(_) => None,
+            Given::Map(map) => Some(map),
+        }
+    }
+
+    fn given(&self, name: &Path) -> Option<&Given> {
+        self.caller.given.iter().find(|(known, _)| known == name).map(|(_, given)| given)
+    }
+}

@@ -1,0 +1,14 @@
+//! How scenes are read.
+
+use std::path::PathBuf;
+
+/// How scenes are read.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Reading {
+    /// Whether materials of other formats are read by their letter.
+    pub(crate) as_written: bool,
+    /// Whether scenes may name files anywhere on this machine.
+    pub(crate) allow_outside: bool,
+    /// Files that make up one scene with the one that a command reads.
+    pub(crate) further: Vec<PathBuf>,
+}

@@ -1,0 +1,361 @@
+"""Illumination maps."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from isolux import _native
+from isolux._call import Call, Path, with_unit, words
+from isolux._grid import Grid, grid
+from isolux._readings import Array, Readings, fixed, places, readings
+from isolux._scene import Scene
+
+Given = list[tuple[str, _native.Scene | _native.Map]]
+
+
+class Map:
+    """An illumination map: the illuminance on every surface of a scene, with its standard error. It does not change.
+
+    Made by :func:`isolux.solve`, :func:`isolux.open_map` or :func:`isolux.mix`. Arrays are copied from the map on first use, as the
+    map keeps them otherwise; then all share the copy, which is read-only.
+    """
+
+    def __init__(self, native: _native.Map, name: str, call: Call | None = None) -> None:
+        self._native = native
+        self._name = name
+        #: What ``isolux solve --json`` prints of the run, if this is its result.
+        self.report: Any = call.report if call else None
+        #: What the run or the reader had to warn of.
+        self.warnings: list[str] = list(call.warnings) if call else []
+        #: What else the run told.
+        self.notes: list[str] = list(call.notes) if call else []
+        #: The maps of groups of luminaires that this is the sum of, by name, after ``solve(group=True)``.
+        self.groups: dict[str, Map] = {}
+
+    @property
+    def complete(self) -> bool:
+        """Whether the accuracy that was asked for is reached."""
+        return self._native.complete
+
+    @property
+    def accuracy(self) -> float | None:
+        """The reported error of the scene, a share: 0.01 is 1 %. ``None`` where it is not known."""
+        return self._native.accuracy_reached
+
+    @property
+    def increments(self) -> int:
+        """Increments of the run: independent replicates, but for radiosity."""
+        return self._native.increments
+
+    @property
+    def receivers(self) -> int:
+        """How many vertices there are."""
+        return self._native.receivers
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene in the map."""
+        return Scene(self._native.scene(), self._name)
+
+    @cached_property
+    def vertices(self) -> Array:
+        """Positions of vertices: (n, 3), in metres, in the axes of the scene."""
+        return fixed(self._native.vertices())
+
+    @cached_property
+    def normals(self) -> Array:
+        """Normals of vertices: (n, 3), on the side that receives the light."""
+        return fixed(self._native.normals())
+
+    @cached_property
+    def areas_m2(self) -> Array:
+        """The area that every vertex stands for: (n,), in m2."""
+        return fixed(self._native.areas())
+
+    @cached_property
+    def _elements(self) -> tuple[npt.NDArray[Any], npt.NDArray[Any], npt.NDArray[Any]]:
+        vertices, triangles, backs = self._native.elements()
+        return fixed(vertices), fixed(triangles), fixed(backs)
+
+    @property
+    def triangles(self) -> npt.NDArray[np.uint32]:
+        """Vertices of the elements: (k, 3), counter-clockwise seen from the front of the scene's triangle, on backs, too."""
+        return self._elements[0]
+
+    @property
+    def scene_triangles(self) -> npt.NDArray[np.uint32]:
+        """The triangle of the scene that each element is part of: (k,)."""
+        return self._elements[1]
+
+    @property
+    def backs(self) -> npt.NDArray[np.bool_]:
+        """Whether each element is on the back of that triangle: (k,)."""
+        return self._elements[2]
+
+    @cached_property
+    def values(self) -> Readings:
+        """The light at the vertices: (n,) :data:`isolux.READING`, interpolated as viewers show it; ``nan`` where nothing is known."""
+        found = readings(self._native.values())
+        found.setflags(write=False)
+        return found
+
+    def probe(
+        self,
+        points: npt.ArrayLike,
+        normals: npt.ArrayLike = (0.0, 0.0, 1.0),
+        *,
+        exact: bool = False,
+        interpolated: bool = False,
+    ) -> Readings:
+        """Read illuminances at points, as ``isolux probe`` does.
+
+        ``points``: (n, 3) in metres, in the axes of the scene. ``normals``: (n, 3), or one for all, the way a luxmeter faces, of any
+        length. Returns (n,) :data:`isolux.READING`; ``.frame`` is a table of pandas. ``nan`` is not known, 0 is known and dark.
+
+        ``exact``: estimate every point afresh, in free space, too: slower. ``interpolated``: the map as a viewer shows it.
+        """
+        if exact and interpolated:
+            raise ValueError("exact and interpolated exclude each other; leave one out")
+        way = "exact" if exact else "interpolated" if interpolated else "probe"
+        call = Call()
+        rows = self._native.readings(self._name, places(points, normals), way, call)
+        call.pass_on()
+        return readings(rows)
+
+    def grid(
+        self,
+        name: str | None = None,
+        *,
+        height: float | None = None,
+        corner: Sequence[float] | None = None,
+        u: Sequence[float] | None = None,
+        v: Sequence[float] | None = None,
+        spacing: float | None = None,
+        border: float | None = None,
+        maintenance_factor: float | None = None,
+        picture: Path | None = None,
+        csv: Path | None = None,
+    ) -> Grid:
+        """The illuminance on one calculation grid, with the figures of a lighting report.
+
+        The grid is one of the scene by its ``name`` (which may be left out if there is one), a working plane over all of the floor
+        plan at a ``height``, or given by a ``corner`` and its sides ``u`` and ``v``, facing u x v. Lengths are metres. ``spacing`` is
+        that of EN 12464-1 unless given; ``border`` is the band along the sides that is left out. ``maintenance_factor`` is the share
+        of the initial light that is left. ``picture`` (.png, .svg) gets a plan with the values, ``csv`` all points.
+        """
+        own = height is not None or corner is not None
+        if name is None and not own and len(self.scene.grids) > 1:
+            known = ", ".join(repr(known) for known in self.scene.grids)
+            raise ValueError(f"the scene has several grids; choose one of {known}, or use grids()")
+        flags = words(
+            name=name,
+            height=height,
+            corner=corner,
+            u=u,
+            v=v,
+            spacing=spacing,
+            border=border,
+            maintenance_factor=maintenance_factor,
+            picture=picture,
+            csv=csv,
+        )
+        return grid(self._run("grid", flags).report["grids"][0])
+
+    def grids(self, *, maintenance_factor: float | None = None) -> list[Grid]:
+        """The illuminance on all calculation grids of the scene; see :meth:`grid`."""
+        flags = words(maintenance_factor=maintenance_factor)
+        return [grid(report) for report in self._run("grid", flags).report["grids"]]
+
+    def render(
+        self,
+        camera: str | None = None,
+        *,
+        eye: Sequence[float] | None = None,
+        target: Sequence[float] | None = None,
+        up: Sequence[float] | None = None,
+        fov: float | None = None,
+        panorama: bool = False,
+        width: int = 1280,
+        height: int = 720,
+        luminance: bool = False,
+        false_colour: bool = False,
+        limits: tuple[float, float] | None = None,
+        logarithmic: bool = False,
+        contours: bool = False,
+        exposure: str | None = None,
+        tone: str | None = None,
+        white: str | None = None,
+        profile: str | None = None,
+        interpolated: bool = False,
+        picture_accuracy: float | None = None,
+    ) -> npt.NDArray[Any]:
+        """Draw a view, as ``isolux render`` does.
+
+        From a ``camera`` of the scene, or from an ``eye`` that looks at a ``target`` (x, y, z, in metres), with ``fov`` degrees from
+        the lower to the upper edge; without both from a place inside where most is seen.
+
+        Returns (height, width, 3) uint8, rows from the top: a picture in sRGB (or ``profile``), with ``false_colour`` colours that
+        stand for lux with a legend beside them, which makes it wider. With ``luminance``, (height, width, 3) float32 in cd/m2: linear
+        Rec. 709, of which 0.2126, 0.7152 and 0.0722 add up to the luminance.
+
+        ``limits``: lux of the first and the last false colour; ``logarithmic``, ``contours``: how they are spread, and lines.
+        ``exposure``, ``tone``, ``white``: how luminance becomes a picture, in the words of the command: ``exposure="ev8"``,
+        ``white="2700K"``. ``interpolated``: the map as a viewer shows it, fast. ``picture_accuracy``: the noise that the picture may
+        have, CIE94; 0.5 unless given.
+        """
+        if luminance and false_colour:
+            raise ValueError("luminance and false_colour exclude each other; leave one out")
+        flags = words(
+            camera=camera,
+            eye=eye,
+            target=target,
+            up=up,
+            fov=fov,
+            panorama=panorama,
+            size=f"{width}x{height}",
+            false_colour=false_colour,
+            limits=f"{limits[0]}:{limits[1]}" if limits else None,
+            logarithmic=logarithmic,
+            contours=contours,
+            exposure=exposure,
+            tone=tone,
+            white=white,
+            profile=profile,
+            interpolated=interpolated,
+            picture_accuracy=picture_accuracy,
+        )
+        with tempfile.TemporaryDirectory(prefix="isolux-") as folder:
+            file = os.path.join(folder, "view.exr" if luminance else "view.png")
+            image: npt.NDArray[Any] = self._run("render", [*flags, "-o", file]).image
+        return image
+
+    def audit(
+        self, *, places: int | None = None, paths: int | None = None, seed: int | None = None
+    ) -> Any:
+        """Test what the map claims, independently, by complete paths: the object that ``isolux audit --json`` prints.
+
+        ``["contradicts"]`` is the verdict, ``["error"]`` the audited error with its interval. ``places``: to compare, 1024 unless
+        given; ``paths``: to trace at each, 64 unless given; ``seed``: that of the map unless given.
+        """
+        return self._run("audit", words(places=places, paths=paths, seed=seed)).report
+
+    def info(self) -> Any:
+        """What the map holds: the object that ``isolux info --json`` prints, with its ``provenance``."""
+        return self._run("info").report
+
+    def mix(self, dim: Mapping[str, float]) -> Map:
+        """The same with groups of luminaires dimmed, without a new run: ``m.mix({"spots": 0.3, "daylight": 0})``.
+
+        For maps of ``solve(group=True)``. One that was opened from a file finds the maps of its groups beside that.
+        """
+        return mix(list(self.groups.values()) or self, dim=dim)
+
+    def export(
+        self,
+        path: Path,
+        *,
+        target: str | None = None,
+        layout: str | None = None,
+        texels_per_meter: float | None = None,
+        without_dark: bool = False,
+        onto: Path | None = None,
+        without_lights: bool = False,
+        digits: int | None = None,
+        beside: Path | None = None,
+        finer: float | str | None = None,
+        white: str | None = None,
+        threads: int | None = None,
+    ) -> Any:
+        """Write the map for other software, as ``isolux export`` does, and return the object that it prints with ``--json``.
+
+        The extension of ``path`` tells the kind: .html to walk through in a browser, .wrl, .x3d, .vtu, .ply, .csv; .glb with colours of
+        vertices or a lightmap, .exr, .ktx2 lightmaps. ``target``: for whom, ``"three"``, ``"godot"``, ``"unity"``, ``"blender"``,
+        ``"bevy"`` or ``"viewer"``. ``layout``: ``"vertices"`` or ``"texels"``. ``finer``: with .html, seconds to look for finer shadows.
+        """
+        flags = words(
+            target=target,
+            layout=layout,
+            texels_per_meter=texels_per_meter,
+            without_dark=without_dark,
+            onto=onto,
+            without_lights=without_lights,
+            digits=digits,
+            beside=beside,
+            finer=with_unit(finer, "s"),
+            white=white,
+            threads=threads,
+        )
+        return self._run("export", [*flags, "-o", os.fspath(path)]).report
+
+    def save(self, path: Path) -> None:
+        """Write the map file (.glb): the same bytes as ``isolux solve`` writes. It is a picture for every viewer of glTF, too."""
+        with open(path, "wb") as file:
+            file.write(self.to_bytes())
+
+    def to_bytes(self) -> bytes:
+        """The bytes of the map file."""
+        return self._native.file(self._name, Call())
+
+    def _run(self, subcommand: str, flags: Sequence[str] = ()) -> Call:
+        return Call().run([subcommand, *flags, "--", self._name], [(self._name, self._native)])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _from_bytes, (self.to_bytes(), self._name)
+
+    def __repr__(self) -> str:
+        error = "unknown" if self.accuracy is None else f"{100 * self.accuracy:.2g} %"
+        return f"<isolux.Map of {self.receivers} receivers, error {error}>"
+
+
+def open_map(path: Path) -> Map:
+    """Read a map file (.glb) that ``solve``, ``mix`` or the command has written."""
+    call = Call()
+    native = _native.Map.read(path, call)
+    call.pass_on()
+    return Map(native, os.fspath(path), call)
+
+
+def _from_bytes(data: bytes, name: str) -> Map:
+    with tempfile.TemporaryDirectory(prefix="isolux-") as folder:
+        path = os.path.join(folder, "map.glb")
+        with open(path, "wb") as file:
+            file.write(data)
+        return Map(_native.Map.read(path, Call()), name)
+
+
+def mix(
+    maps: Map | Path | Sequence[Map | Path] | Mapping[Path, float],
+    *,
+    dim: Mapping[str, float] | None = None,
+) -> Map:
+    """Add maps of the same surfaces in different light, without a new run; errors add up as ``isolux mix`` has it.
+
+    ``maps``: maps or map files; a dict of files has what all light of each is multiplied by: ``{"map.spots.glb": 0.3}``. ``dim``: the
+    factor on the luminaires of a group, ``{"spots": 0.3}``, 0 for off.
+    """
+    if isinstance(maps, Mapping):
+        parts: list[tuple[Map | Path, float]] = list(maps.items())
+    elif isinstance(maps, (Map, str, os.PathLike)):
+        parts = [(maps, 1.0)]
+    else:
+        parts = [(part, 1.0) for part in maps]
+    given: Given = []
+    flags = [word for group, by in (dim or {}).items() for word in ("--dim", f"{group}={by!r}")]
+    names = []
+    for number, (part, dimming) in enumerate(parts):
+        name = os.fspath(part) if not isinstance(part, Map) else part._name
+        if isinstance(part, Map):
+            name = name if os.path.exists(name) else f"map {number + 1}"
+            given.append((name, part._native))
+        names.append(f"{name}={dimming!r}")
+    with tempfile.TemporaryDirectory(prefix="isolux-") as folder:
+        output = os.path.join(folder, "mixed.glb")
+        call = Call().run(["mix", *flags, "-o", output, "--", *names], given)
+    return Map(call.maps[-1][1], "mixed.glb", call)
