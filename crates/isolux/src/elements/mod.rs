@@ -13,12 +13,14 @@ mod tests;
 
 pub use arrays::{ElementArrays, ElementArraysError};
 pub use hash::FewNumbers;
+pub(crate) use hash::{set_in_order, table_in_order};
 pub(crate) use subdivide::edge_key;
 pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
 pub(crate) use subdivide::{first_corner_count, first_vertex_count};
 pub(crate) use walk::Place;
 
 use isolux_geometry::{Normal, Point};
+use serde::{Deserialize, Serialize};
 use walk::Walk;
 
 /// Elements or vertices of one task, where little is done for each.
@@ -36,7 +38,8 @@ pub struct PlaceOnSide {
 }
 
 /// The subdivided surfaces.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "ElementArrays", into = "ElementArrays")]
 pub struct Elements {
     vertices: Vec<Vertex>,
     nodes: Vec<Node>,
@@ -47,7 +50,7 @@ pub struct Elements {
 }
 
 /// A vertex of the elements: a receiver of light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Vertex {
     /// Place on the surface, m.
     pub position: Point,
@@ -60,7 +63,7 @@ pub struct Vertex {
 }
 
 /// A node of a tree of bisections: an element where it is not split.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Node {
     /// Vertices, counter-clockwise seen from the front of the scene's triangle.
     pub vertices: [u32; 3],
@@ -69,7 +72,7 @@ pub struct Node {
 }
 
 /// A bisection at the middle of one edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Split {
     /// The edge from vertex `edge` to vertex `(edge + 1) % 3`.
     pub edge: u8,

@@ -10,6 +10,7 @@ use super::{Elements, Node, Split, TOGETHER, Vertex};
 use crate::scene::{Finish, Scene};
 use isolux_geometry::{Normal, Point, Triangle};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 use std::collections::HashMap;
 
@@ -21,7 +22,7 @@ const CREASE_COS: f64 = 0.999_847_7;
 type Few = SmallVec<[u32; 2]>;
 
 /// Elements that can still be bisected.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Subdivision {
     vertices: Vec<Vertex>,
     nodes: Vec<Node>,
@@ -30,13 +31,14 @@ pub struct Subdivision {
     longest: Vec<(f64, u8)>,
     roots: Vec<[Option<u32>; 2]>,
     /// The elements on every edge, by its ends, the lower first.
+    #[serde(serialize_with = "super::hash::table_in_order")]
     edges: HashMap<[u32; 2], Few, FewNumbers>,
     /// Of every vertex, whether it lies on an edge with elements on one side only: bisection changes that of none.
     on_border: Vec<bool>,
 }
 
 /// Which side of which triangle a node is part of, and its depth in the tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
     /// Triangle of the scene.
     pub triangle: u32,

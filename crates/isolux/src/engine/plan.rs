@@ -13,16 +13,25 @@ use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
 use crate::scene::Scene;
 use crate::units::Rgb;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::ops::Deref;
 use std::sync::Arc;
 
-/// The result of the pilot.
+/// The result of the pilot, with the scene that it belongs to. It reads like that result.
 pub(super) struct Plan<'s> {
     pub(super) scene: &'s Scene,
     pub(super) lighting: &'s Lighting<'s>,
-    pub(super) mesh: PlannedMesh,
-    pub(super) light: PlannedLight,
-    pub(super) errors: PlannedErrors,
-    pub(super) tried: PlannedNoise,
+    pub(super) result: PilotResult,
+}
+
+/// The result of a pilot: a plain value, from which increments continue on any machine.
+#[derive(Clone, Serialize, Deserialize)]
+pub struct PilotResult {
+    pub(super) mesh: Arc<PlannedMesh>,
+    pub(super) light: Arc<PlannedLight>,
+    pub(super) errors: Arc<PlannedErrors>,
+    pub(super) tried: Arc<PlannedNoise>,
     /// Whether there was time for all steps of the pilot.
     pub(super) is_whole: bool,
     /// Whether elements for a higher accuracy would be about the same, since their number is at its limits.
@@ -32,6 +41,7 @@ pub(super) struct Plan<'s> {
 }
 
 /// The elements, and the interpolation of light over them.
+#[derive(Serialize, Deserialize)]
 pub(super) struct PlannedMesh {
     pub(super) elements: Elements,
     /// The elements of indirect light, by node, as triangles of the scene.
@@ -57,6 +67,7 @@ pub(super) struct PlannedMesh {
 }
 
 /// The light known to the pilot.
+#[derive(Serialize, Deserialize)]
 pub(super) struct PlannedLight {
     /// Direct light at the vertices, lx; exact if the lighting is.
     pub(super) direct: Vec<Rgb>,
@@ -76,6 +87,7 @@ pub(super) struct PlannedLight {
 }
 
 /// The expected interpolation errors.
+#[derive(Serialize, Deserialize)]
 pub(super) struct PlannedErrors {
     /// The errors of the elements of indirect light.
     pub(super) of_elements: Vec<LeafError>,
@@ -92,6 +104,7 @@ pub(super) struct PlannedErrors {
 }
 
 /// The noise measured by trials with few rays and particles.
+#[derive(Serialize, Deserialize)]
 pub(super) struct PlannedNoise {
     /// The noise of gathered light.
     pub(super) trial: RayTrial,
@@ -99,6 +112,21 @@ pub(super) struct PlannedNoise {
     pub(super) caustic_noise: CausticNoise,
     /// The distribution of particles for caustics, if they are aimed.
     pub(super) aim: Option<Aim>,
+}
+
+impl<'s> Deref for Plan<'s> {
+    type Target = PilotResult;
+
+    fn deref(&self) -> &PilotResult {
+        &self.result
+    }
+}
+
+impl fmt::Debug for PilotResult {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let receivers = self.mesh.elements.vertices().len();
+        to.debug_struct("PilotResult").field("receivers", &receivers).finish_non_exhaustive()
+    }
 }
 
 impl Plan<'_> {
@@ -131,7 +159,7 @@ impl Plan<'_> {
     }
 
     /// The trust of readers unless check points show otherwise.
-    pub(super) const fn trust(&self) -> Trust {
+    pub(super) fn trust(&self) -> Trust {
         self.errors.trusts.foreseen()
     }
 

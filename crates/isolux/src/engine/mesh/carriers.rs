@@ -14,6 +14,7 @@ use super::coarsening::{Coarsening, Link};
 use crate::elements::Subdivision;
 use crate::units::Rgb;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The root mean square of the linear interpolation error over an element, as a share of the detail of its newest
 /// vertex. For a parabola across the edge the error at the middle of the next edge is a quarter of the detail, and
@@ -22,7 +23,7 @@ use rayon::prelude::*;
 pub(crate) const ERROR_OF_DETAIL: f64 = 0.3;
 
 /// The vertices that carry light.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Carriers {
     /// The link of each vertex of the first mesh; vertices without a link always carry light.
     links: Vec<Option<Link>>,
@@ -36,7 +37,7 @@ pub(crate) struct Carriers {
 
 /// Vertices that wait, that is, do not carry light, and their parents in one array, since these are read again and
 /// again.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Waiting {
     /// The vertices, coarse to fine.
     vertices: Vec<u32>,

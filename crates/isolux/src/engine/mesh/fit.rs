@@ -23,6 +23,7 @@ use crate::elements::{Element, Elements};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The largest sum of the magnitudes of weights of second differences. Beyond it elements are slivers.
 const MOST_WEIGHTS_SUM: f64 = 4.0;
@@ -39,7 +40,7 @@ const TASK_VERTICES: usize = 256;
 type Form = Vec<(u32, f64)>;
 
 /// The shifts of vertices, as linear combinations of all values.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Fit {
     entries: Form,
     /// The end of the entries of each vertex.

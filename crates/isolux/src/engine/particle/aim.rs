@@ -12,6 +12,7 @@ use crate::engine::ray::{Dice, SurfacePoint};
 use crate::scene::{Body, Finish, Scene};
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// One particle in this many is not aimed. No aimed particle so carries more than eight times its share,
 /// whatever was expected wrongly (decision 27).
@@ -31,6 +32,7 @@ const UNLEARNED_SHARE: f64 = 0.1;
 const OFF_TARGET_SHARE: f64 = 1e-4;
 
 /// The distribution of aimed particles.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct Aim {
     groups: Vec<Group>,
     /// The group of every triangle of the scene; `None` if it is not specular.
@@ -41,6 +43,7 @@ pub(crate) struct Aim {
 }
 
 /// Specular triangles close to each other.
+#[derive(Serialize, Deserialize)]
 struct Group {
     triangles: Vec<u32>,
     /// The running sums of their areas, m2.

@@ -11,6 +11,7 @@ use crate::engine::mesh::NO_INDEX;
 use crate::engine::ray::{Accumulator, Noise, Sample};
 use crate::map::Standing;
 use crate::units::Rgb;
+use serde::{Deserialize, Serialize};
 
 /// The number of parts from one division of an element, at the midpoints of its edges.
 const QUARTERS: usize = 4;
@@ -23,14 +24,14 @@ pub(crate) const PARTS: usize = QUARTERS * QUARTERS;
 const WITHIN_PARTS_FACTOR: f64 = 1.25;
 
 /// The checked elements.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct ElementParts {
     elements: Vec<Checked>,
     /// The index in `elements` of each node.
     of_node: Vec<u32>,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Checked {
     corners: [u32; 3],
     area_m2: f64,

@@ -2,12 +2,13 @@
 
 use super::request::{SolveError, SolveRequest};
 use crate::engine::method::RadiositySettings;
+use crate::engine::plan::PilotResult;
 use crate::engine::ray::{Accumulator, Sums};
 use crate::map::Method;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
-/// The sums of a run so far. Elements are not part of it, since the pilot makes the same ones again.
+/// The sums of a run so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunState {
     /// The identity of the run.
@@ -26,6 +27,28 @@ pub struct RunState {
     pub checks: Vec<Sums>,
     /// The sum of the light on paths given up: one entry, or none where there are no increments.
     pub given_up: Vec<Sums>,
+    /// The pilot of the stage; without it, a run makes the same one again.
+    pub pilot: Option<PilotState>,
+}
+
+/// The result of a pilot, with the run that it belongs to.
+#[derive(Clone, Debug)]
+pub struct PilotState {
+    /// The identity of the run.
+    pub identity: RunIdentity,
+    /// The number of the mesh, counted from one.
+    pub stage: u32,
+    /// The number of rays traced before the first increment on this mesh.
+    pub rays: u64,
+    /// The elements, the light known on them, and its noise.
+    pub result: PilotResult,
+}
+
+impl PartialEq for PilotState {
+    /// Pilots of one run and one stage are the same.
+    fn eq(&self, other: &Self) -> bool {
+        (&self.identity, self.stage, self.rays) == (&other.identity, other.stage, other.rays)
+    }
 }
 
 /// The results of the audits of a run.
@@ -99,7 +122,12 @@ impl RunIdentity {
 
     /// Compares the identity with that of a saved run. The error names the first difference.
     pub(crate) fn check(&self, saved: &Self) -> Result<(), SolveError> {
-        let differs = [
+        self.difference(saved).map_or(Ok(()), |what| Err(SolveError::OtherRun(what)))
+    }
+
+    /// The first difference from another identity.
+    pub(crate) fn difference(&self, saved: &Self) -> Option<&'static str> {
+        let same = [
             ("the scene", self.scene_hash == saved.scene_hash),
             ("the version of isolux", self.version == saved.version),
             ("the build of isolux", self.build == saved.build),
@@ -111,10 +139,7 @@ impl RunIdentity {
             ("the limits of radiosity", self.radiosity == saved.radiosity),
             ("whether it is audited", self.audit == saved.audit),
         ];
-        match differs.iter().find(|(_, same)| !same) {
-            Some((what, _)) => Err(SolveError::OtherRun(what)),
-            None => Ok(()),
-        }
+        same.iter().find(|(_, same)| !same).map(|(what, _)| *what)
     }
 }
 

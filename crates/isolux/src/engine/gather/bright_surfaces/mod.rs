@@ -20,6 +20,7 @@ use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Normal, Point, Ray, Vector};
 use patches::{Patch, Patches, reflected_lm};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -38,6 +39,7 @@ const MOST_CUBES: usize = 64;
 const MOST_SENT_RATIO: f64 = 0.5;
 
 /// The bright surfaces of a scene.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct BrightSurfaces {
     parts: Vec<Part>,
     patches: Patches,
@@ -49,6 +51,7 @@ pub(crate) struct BrightSurfaces {
 }
 
 /// Bright surfaces that lie together.
+#[derive(Serialize, Deserialize)]
 struct Part {
     centre: Point,
     radius_m: f64,

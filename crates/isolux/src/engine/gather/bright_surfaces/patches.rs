@@ -9,6 +9,7 @@ use crate::engine::ray::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::Point;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The number of particles above which a patch is bisected. The density of light in a patch of so few errs by a
@@ -19,7 +20,7 @@ const FEW_PARTICLES: usize = 8;
 const LEAST_EDGE_ROUNDINGS: f64 = 4.0;
 
 /// A node of the bisection of a side.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 struct Node {
     /// The corner opposite to the edge that is bisected.
     corner: u8,
@@ -30,7 +31,7 @@ struct Node {
 }
 
 /// A patch that is not bisected further.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Patch {
     pub(super) triangle: u32,
     pub(super) back: bool,
@@ -41,6 +42,7 @@ pub(super) struct Patch {
 }
 
 /// All patches that are brighter than a limit.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Patches {
     /// The first node of the front and back of each triangle.
     roots: Vec<[u32; 2]>,

@@ -2,6 +2,7 @@
 
 mod outlook;
 
+use super::part::Segment;
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
 use crate::ablation::without;
@@ -43,6 +44,8 @@ pub(crate) struct Work<'p, 's> {
     stops_at_unshot: bool,
     /// The relative accuracy goal of the run.
     goal: Option<f64>,
+    /// The number of the first increment: zero, but for parts of runs.
+    first: u64,
 }
 
 enum Engine<'p, 's> {
@@ -111,7 +114,8 @@ impl<'p, 's> Work<'p, 's> {
         let given_up = Accumulator::new(1, reference_of(plan, &engine));
         let stops_at_unshot = request.radiosity.unshot.is_some();
         let (samples, left, goal) = (rays, None, request.accuracy);
-        Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal }
+        let first = 0;
+        Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal, first }
             .in_units_of_light()
             .looked_at()
     }
@@ -126,6 +130,52 @@ impl<'p, 's> Work<'p, 's> {
             self.sums = self.sums.expecting(expected.iter().map(|light| light.luminance()));
         }
         self
+    }
+
+    /// The number of receivers.
+    pub(crate) fn receivers(&self) -> u64 {
+        self.sums.sums.len() as u64
+    }
+
+    /// Begins with an increment in place of the first one, without sums, and to end before another.
+    pub(crate) fn begin_at(&mut self, first: u64, end: u64) {
+        self.first = first;
+        self.sums.clear();
+        self.checks.sums.clear();
+        self.checks.lacking.clear();
+        self.given_up.clear();
+        if let Engine::Hybrid(hybrid) = &mut self.engine {
+            hybrid.begin_at(end);
+        }
+    }
+
+    /// Takes the sums since the increments began, and goes on without them.
+    pub(crate) fn take(&mut self, rays: u64) -> Segment {
+        let (first, count) = (self.first, self.sums.increments);
+        self.first += count;
+        let given_up = self.given_up.clear();
+        let [receivers, checks, lacking] =
+            [&mut self.sums, &mut self.checks.sums, &mut self.checks.lacking]
+                .map(Accumulator::clear);
+        Segment { first, count, rays, receivers, checks: [checks, lacking].concat(), given_up }
+    }
+
+    /// Adds increments made elsewhere. The error names what has another size than here.
+    pub(crate) fn add(&mut self, made: &Segment) -> Result<(), SolveError> {
+        let (checks, lacking) = made
+            .checks
+            .split_at_checked(self.checks.sums.sums.len())
+            .ok_or(SolveError::OtherRun("the number of check points"))?;
+        let into = [
+            (&mut self.sums, made.receivers.as_slice(), "the number of receivers"),
+            (&mut self.checks.sums, checks, "the number of check points"),
+            (&mut self.checks.lacking, lacking, "the number of checked elements"),
+            (&mut self.given_up, &made.given_up, "the sum of the light given up"),
+        ];
+        for (sums, made_sums, what) in into {
+            sums.merge(made_sums, made.count).map_err(|_| SolveError::OtherRun(what))?;
+        }
+        Ok(())
     }
 
     pub(crate) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
@@ -155,8 +205,8 @@ impl<'p, 's> Work<'p, 's> {
     /// Adds one increment and returns the number of rays traced; `None` if its deadline passes before. The first
     /// increment is always completed, except that of `hybrid`, whose pilot knows the light.
     pub(crate) fn increment(&mut self, end: Deadline) -> Option<u64> {
-        let index = self.sums.increments;
-        let deadline = if index > 0 { end } else { Deadline::NEVER };
+        let deadline = if self.sums.increments > 0 { end } else { Deadline::NEVER };
+        let index = self.first + self.sums.increments;
         let effort = match &mut self.engine {
             Engine::Hybrid(hybrid) => {
                 let made = hybrid.increment(index, &self.checks.points, end)?;

@@ -1,6 +1,7 @@
 //! A run: pilot, increments, end, map.
 
 mod audited;
+mod parted;
 mod session;
 mod so_far;
 
@@ -14,6 +15,7 @@ use crate::engine::plan::Plan;
 use crate::engine::ray::MAX_INCREMENTS;
 use crate::map::Method;
 use crate::scene::Scene;
+pub use parted::{Elsewhere, PartMaker, make_pilot, solve_elsewhere, solve_merged, with_parts};
 use session::{End, FEWEST_STAGES, MOST_STAGES, Pace, Run};
 pub use so_far::{SoFar, Solution, Watcher};
 use std::mem;
@@ -66,6 +68,17 @@ pub fn solve_looked_at(
     watch: &mut Watcher<'_>,
 ) -> Result<Solution, SolveError> {
     check(scene, request)?;
+    run_on(scene, request, resume, None, watch)
+}
+
+/// Runs from the pilot or a saved state to the map, with increments made here or elsewhere.
+fn run_on(
+    scene: &Scene,
+    request: &SolveRequest,
+    resume: Option<&RunState>,
+    mut elsewhere: Option<&mut Elsewhere<'_>>,
+    watch: &mut Watcher<'_>,
+) -> Result<Solution, SolveError> {
     if let Some(state) = resume {
         RunIdentity::of(scene, request).check(&state.identity)?;
     }
@@ -76,12 +89,13 @@ pub fn solve_looked_at(
         run.audited = state.audited.clone();
         run.stage = state.stage.clamp(1, MOST_STAGES);
         run.saved_stage = run.stage;
+        run.saved_pilot = state.pilot.clone();
     }
     let mut tried = None;
     // A run that is stopped while it makes finer elements returns its earlier map.
     let mut best: Option<Solution> = None;
     loop {
-        let plan = run.pilot(&lighting, watch);
+        let plan = run.plan(&lighting, watch);
         let saved = resume.filter(|state| state.stage == run.stage);
         // The same elements would be too coarse again. Samples of a cache, however, lie closer at every stage.
         if tried.replace(plan.size()) == Some(plan.size())
@@ -92,7 +106,7 @@ pub fn solve_looked_at(
             run.stage = (run.stage + FEWEST_STAGES).min(MOST_STAGES);
             continue;
         }
-        match run.increments(&plan, saved, watch)? {
+        match run.increments(&plan, saved, elsewhere.as_deref_mut(), watch)? {
             Outcome::Done(solution) => return Ok(solution.or_better(best)),
             Outcome::TooCoarse(stages, solution) => {
                 best = Some(solution.or_better(best));
@@ -134,10 +148,11 @@ impl<'s> Run<'s, '_> {
         &mut self,
         plan: &Plan<'s>,
         saved: Option<&RunState>,
+        mut elsewhere: Option<&mut Elsewhere<'_>>,
         watch: &mut Watcher<'_>,
     ) -> Result<Outcome, SolveError> {
         let mut work = Work::new(plan, self.request, self.mesh_for(), 0);
-        if saved.is_none() {
+        if saved.is_none() && elsewhere.is_none() {
             work = self.affordable(work);
         }
         if let Some(state) = saved {
@@ -151,7 +166,10 @@ impl<'s> Run<'s, '_> {
         let mut is_judged = saved.is_none();
         loop {
             if mem::replace(&mut is_judged, true) {
-                self.stopped |= !self.advance(&mut work);
+                self.stopped |= !match &mut elsewhere {
+                    Some(elsewhere) => self.take_from(elsewhere, &mut work)?,
+                    None => self.advance(&mut work),
+                };
             }
             let whole_mesh = saved.is_some() || !self.cut;
             if let Some([mean_lx, allowed_lx]) = work.beyond_energy(&allowed) {

@@ -3,7 +3,7 @@
 use super::super::increments::Work;
 use super::super::prediction;
 use super::super::request::{Prediction, Progress, SolveRequest, Stage, Watch};
-use super::super::state::{Audited, RunIdentity, RunState};
+use super::super::state::{Audited, PilotState, RunIdentity, RunState};
 use super::so_far::{SoFar, Solution, Watcher};
 use crate::ablation::without;
 use crate::engine::gather::Unlit;
@@ -48,6 +48,8 @@ pub(super) struct Run<'s, 'r> {
     pub(super) identity: RunIdentity,
     pub(super) started: Instant,
     pub(super) rays: u64,
+    /// The part of `rays` that was traced before the first increment on the present elements.
+    pub(super) rays_of_pilots: u64,
     /// The part of `rays` that an earlier run has traced.
     pub(super) earlier_rays: u64,
     /// Whether the watcher or the time limit has stopped the run.
@@ -61,6 +63,8 @@ pub(super) struct Run<'s, 'r> {
     pub(super) unlit: Unlit,
     /// The stage of the saved run that this one continues; zero if there is none.
     pub(super) saved_stage: u32,
+    /// The pilot of a saved run, in place of one of the same stage.
+    pub(super) saved_pilot: Option<PilotState>,
     /// The luminaires, for audits; `None` if no map is made.
     pub(super) lighting: Option<Arc<Lighting<'s>>>,
     /// The results of the audits so far.
@@ -77,7 +81,9 @@ impl<'s, 'r> Run<'s, 'r> {
             identity: RunIdentity::of(scene, request),
             started: Instant::now(),
             rays: 0,
+            rays_of_pilots: 0,
             earlier_rays: 0,
+            saved_pilot: None,
             stopped: false,
             cut: false,
             stage: 1,
@@ -104,6 +110,11 @@ impl<'s, 'r> Run<'s, 'r> {
 
     pub(super) fn out_of_time(&self) -> bool {
         self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
+    }
+
+    /// The end of the time limit, if there is one.
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        self.request.time_limit.and_then(|limit| self.started.checked_add(limit))
     }
 
     /// Whether the time left is better spent on increments than on finer elements, the next of which take `step_s`.
@@ -153,11 +164,28 @@ impl<'s, 'r> Run<'s, 'r> {
         Deadline(limit.and_then(|limit| self.started.checked_add(limit.mul_f64(PILOT_SHARE))))
     }
 
-    pub(super) fn pilot(
-        &mut self,
-        lighting: &'s Lighting<'s>,
-        watch: &mut Watcher<'_>,
-    ) -> Plan<'s> {
+    /// The result of a pilot, for other runs.
+    pub(super) fn pilot_state(&self, plan: &Plan) -> PilotState {
+        PilotState {
+            identity: self.identity.clone(),
+            stage: self.stage,
+            rays: self.rays_of_pilots,
+            result: plan.result.clone(),
+        }
+    }
+
+    /// The plan of the present stage: a saved one, or that of a pilot.
+    pub(super) fn plan(&mut self, lighting: &'s Lighting<'s>, watch: &mut Watcher<'_>) -> Plan<'s> {
+        match self.saved_pilot.take_if(|saved| saved.stage == self.stage) {
+            Some(PilotState { rays, result, .. }) => {
+                self.rays_of_pilots = rays;
+                Plan { scene: self.scene, lighting, result }
+            }
+            None => self.pilot(lighting, watch),
+        }
+    }
+
+    fn pilot(&mut self, lighting: &'s Lighting<'s>, watch: &mut Watcher<'_>) -> Plan<'s> {
         let request = self.pilot_request();
         let (before, started_s) = (self.rays, self.elapsed_s());
         let scene = self.scene;
@@ -177,6 +205,7 @@ impl<'s, 'r> Run<'s, 'r> {
         self.unlit = unlit;
         self.cut |= !plan.is_whole;
         self.rays = before + plan.rays;
+        self.rays_of_pilots = self.rays;
         self.pilot_s = self.elapsed_s() - started_s;
         plan
     }
@@ -188,7 +217,7 @@ impl<'s, 'r> Run<'s, 'r> {
         Some(prediction::foreseen(round.left, self.elapsed_s()))
     }
 
-    fn progress(
+    pub(super) fn progress(
         &self,
         stage: Stage,
         increments: u64,
@@ -286,8 +315,7 @@ impl<'s, 'r> Run<'s, 'r> {
         if self.stopped && work.sums.increments > 0 {
             return false;
         }
-        let end = self.request.time_limit.and_then(|limit| self.started.checked_add(limit));
-        let rays = work.increment(Deadline(end));
+        let rays = work.increment(Deadline(self.deadline()));
         self.rays += rays.unwrap_or(0);
         if rays.is_none() && work.sums.increments == 0 {
             self.cut = true;
@@ -304,7 +332,7 @@ impl<'s, 'r> Run<'s, 'r> {
         end: Option<End>,
     ) -> Progress {
         let count = work.sums.increments;
-        let receivers = work.sums.sums.len() as u64;
+        let receivers = work.receivers();
         let progress = self.progress(Stage::Increments, count, receivers, accuracy);
         let goal = self.goal();
         let needed = goal.and_then(|goal| work.increments_needed(accuracy, goal));
@@ -345,6 +373,7 @@ impl<'s, 'r> Run<'s, 'r> {
             receivers: some(&|work| work.sums.sums.clone()),
             checks: some(&|work| work.checks.all()),
             given_up: some(&|work| work.given_up.sums.clone()),
+            pilot: sums.map(|work| self.pilot_state(work.plan)),
         }
     }
 
