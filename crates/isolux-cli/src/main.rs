@@ -41,12 +41,15 @@ mod maintained;
 mod map_facts;
 mod map_file;
 mod memory;
+mod merge;
 mod meter;
 mod mix;
 mod new;
 mod notes;
 mod origin;
 mod output;
+mod part_files;
+mod parted;
 mod points;
 mod probe;
 mod progress;
@@ -103,6 +106,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Solve(flags) => flags.threads,
         Command::Export(flags) => flags.threads,
         Command::Bake(flags) => flags.threads,
+        Command::Merge(flags) => flags.threads,
         Command::Compare(flags) => flags.threads,
         _ => None,
     };
@@ -128,6 +132,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::New(flags) => new::run(flags, json),
         Command::Demo(flags) => demo::run(flags, json),
         Command::Mix(flags) => mix::run(flags, json),
+        Command::Merge(flags) => merge::run(flags, json),
         Command::Info(flags) => info::run(flags, json),
         Command::Completions(flags) => shell::completions(flags, json),
         Command::Man(flags) => shell::man(flags, json),

@@ -50,7 +50,7 @@ pub struct Elements {
 }
 
 /// A vertex of the elements: a receiver of light.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
     /// Place on the surface, m.
     pub position: Point,
@@ -63,7 +63,7 @@ pub struct Vertex {
 }
 
 /// A node of a tree of bisections: an element where it is not split.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Node {
     /// Vertices, counter-clockwise seen from the front of the scene's triangle.
     pub vertices: [u32; 3],
@@ -72,7 +72,7 @@ pub struct Node {
 }
 
 /// A bisection at the middle of one edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Split {
     /// The edge from vertex `edge` to vertex `(edge + 1) % 3`.
     pub edge: u8,

@@ -49,6 +49,11 @@ pub(crate) struct Waiting {
     ends: Vec<usize>,
 }
 
+/// Whether these are the ends of `count` successive ranges of a list.
+pub(super) fn are_ends(ends: &[usize], count: usize, length: usize) -> bool {
+    ends.len() == count && ends.is_sorted() && ends.last().is_none_or(|&last| last == length)
+}
+
 /// The estimate of the error at a vertex that does not carry light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Told {
@@ -176,6 +181,17 @@ impl Carriers {
             start = end;
         }
         waiting
+    }
+
+    /// Whether the carriers are some of so many vertices.
+    pub(crate) fn are_of(&self, vertices: usize) -> bool {
+        let first = self.links.len();
+        let is_parent = |&(v, weight): &(u32, f64)| (v as usize) < first && weight.is_finite();
+        first <= vertices
+            && self.active.len() == first
+            && are_ends(&self.ends, self.ends.len(), self.order.len())
+            && self.order.iter().all(|&v| (v as usize) < first)
+            && self.links.iter().flatten().flat_map(|link| &link.parents).all(is_parent)
     }
 
     /// Interpolates the values of vertices that wait.

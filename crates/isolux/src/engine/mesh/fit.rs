@@ -18,6 +18,7 @@
 use super::MIN_TASK_LENGTH;
 use super::bounded::{Bounded, Range};
 use super::carriers::Carriers;
+use super::carriers::are_ends;
 use crate::ablation::without;
 use crate::elements::{Element, Elements};
 use crate::units::Rgb;
@@ -106,6 +107,12 @@ impl Fit {
             fit.ends.extend(part.ends.into_iter().map(|end| before + end));
         }
         fit
+    }
+
+    /// Whether the fit is one of so many vertices.
+    pub(crate) fn is_of(&self, vertices: usize) -> bool {
+        are_ends(&self.ends, vertices, self.entries.len())
+            && self.entries.iter().all(|&(v, weight)| (v as usize) < vertices && weight.is_finite())
     }
 
     /// The values of best fit from those at the vertices, each within the range of the values that it is fitted to.

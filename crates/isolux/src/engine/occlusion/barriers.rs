@@ -95,6 +95,14 @@ impl Barriers {
         cuts
     }
 
+    /// Whether the barriers are across some of so many nodes, over so many vertices.
+    pub(crate) fn are_of(&self, nodes: usize, vertices: usize) -> bool {
+        let is_vertex = |v: &u32| (*v as usize) < vertices;
+        self.of_nodes.iter().all(|(&node, of)| (node as usize) < nodes && of.corner < 3)
+            && self.corners.iter().flatten().all(is_vertex)
+            && self.ends.iter().flat_map(|(vertex, end)| [vertex, end]).all(is_vertex)
+    }
+
     /// The barriers across the elements of a map.
     pub(crate) fn of_map(scene: &Scene, elements: &Elements, light: &[Rgb]) -> Self {
         Self::of(scene, elements, (Side::of_all(elements), light), usize::MAX)

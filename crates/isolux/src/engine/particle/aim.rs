@@ -88,6 +88,22 @@ impl Aim {
         Some(Self { groups, group_of, luminaires, sums: running_sums(&chances) })
     }
 
+    /// Whether the groups are triangles of a scene, and the luminaires those of its emission.
+    pub(crate) fn is_of(&self, scene: &Scene, emission: &Emission) -> bool {
+        let triangles = scene.triangle_count();
+        let is_group = |group: &Group| {
+            !group.triangles.is_empty()
+                && group.sums_m2.len() == group.triangles.len()
+                && group.triangles.iter().all(|&t| t < triangles)
+        };
+        !self.groups.is_empty()
+            && self.luminaires == emission.count()
+            && self.sums.len() == self.groups.len() * self.luminaires
+            && self.group_of.len() == triangles as usize
+            && self.group_of.iter().flatten().all(|&g| (g as usize) < self.groups.len())
+            && self.groups.iter().all(is_group)
+    }
+
     pub(crate) const fn groups(&self) -> usize {
         self.groups.len()
     }

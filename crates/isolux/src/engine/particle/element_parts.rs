@@ -57,6 +57,14 @@ impl ElementParts {
         Self { elements: nodes.iter().enumerate().map(checked).collect(), of_node }
     }
 
+    /// Whether the checked elements are some of so many nodes, over so many vertices.
+    pub(crate) fn are_of(&self, nodes: usize, vertices: usize) -> bool {
+        let is_checked = |&k: &u32| k == NO_INDEX || (k as usize) < self.elements.len();
+        self.of_node.len() <= nodes
+            && self.of_node.iter().all(is_checked)
+            && self.elements.iter().flat_map(|e| e.corners).all(|v| (v as usize) < vertices)
+    }
+
     /// The number of parts.
     pub(crate) fn count(&self) -> usize {
         self.elements.len() * PARTS

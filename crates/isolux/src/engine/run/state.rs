@@ -8,6 +8,12 @@ use crate::map::Method;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
+/// The number of stages that halve the error which elements are made for.
+pub(crate) const STAGES_TO_HALF: u32 = 4;
+/// The largest number of stages, after which a run keeps what it has. The last one has elements for an eighth of the
+/// accuracy goal.
+pub(crate) const MOST_STAGES: u32 = 3 * STAGES_TO_HALF + 1;
+
 /// The sums of a run so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunState {
@@ -42,6 +48,15 @@ pub struct PilotState {
     pub rays: u64,
     /// The elements, the light known on them, and its noise.
     pub result: PilotResult,
+}
+
+impl PilotState {
+    /// Compares the result with the scene.
+    pub(crate) fn check(&self, scene: &Scene) -> Result<(), SolveError> {
+        let is_stage = (1..=MOST_STAGES).contains(&self.stage);
+        let is_sound = is_stage && self.result.is_of(scene);
+        if is_sound { Ok(()) } else { Err(SolveError::Unsound("the saved pilot")) }
+    }
 }
 
 impl PartialEq for PilotState {

@@ -135,6 +135,19 @@ impl BrightSurfaces {
         Some(Self { parts, patches, of_patches, mean_lx })
     }
 
+    /// Whether the surfaces are some of so many triangles.
+    pub(crate) fn are_of(&self, triangles: u32) -> bool {
+        let is_part = |part: &Part| {
+            !part.patches.is_empty()
+                && part.sums_lm.len() == part.patches.len()
+                && part.patches.iter().all(|patch| patch.triangle < triangles)
+        };
+        self.patches.are_of(triangles)
+            && self.of_patches.len() == self.patches.all.len()
+            && self.of_patches.iter().all(|&(part, _)| part < self.parts.len())
+            && self.parts.iter().all(is_part)
+    }
+
     /// The bright surfaces as seen from a place with `rays` rays; `None` where no ray is worth sending.
     pub(crate) fn seen_from(&self, origin: Point, axis: Normal, rays: u32) -> Option<Seen<'_>> {
         let mut sum_lx = 0.0;

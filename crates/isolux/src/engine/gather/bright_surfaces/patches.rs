@@ -86,6 +86,21 @@ impl Patches {
         patches
     }
 
+    /// Whether the patches are parts of so many triangles, and the way down to each ends.
+    pub(super) fn are_of(&self, triangles: u32) -> bool {
+        let count = self.nodes.len();
+        let is_node = |(number, node): (usize, &Node)| {
+            let below = node.below as usize;
+            let goes_down = node.below == NO_INDEX || below > number && below + 1 < count;
+            let is_patch = node.patch == NO_INDEX || (node.patch as usize) < self.all.len();
+            node.corner < 3 && goes_down && is_patch
+        };
+        self.roots.len() <= triangles as usize
+            && self.roots.iter().flatten().all(|&r| r == NO_INDEX || (r as usize) < count)
+            && self.nodes.iter().enumerate().all(is_node)
+            && self.all.iter().all(|patch| patch.triangle < triangles)
+    }
+
     /// The number of the patch that a place lies in.
     pub(super) fn at(&self, place: &SurfacePoint) -> Option<usize> {
         let root = self.roots.get(place.triangle as usize)?[usize::from(place.back)];

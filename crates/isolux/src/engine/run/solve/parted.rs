@@ -5,8 +5,8 @@ use super::super::part::RunPart;
 use super::super::request::{SolveError, SolveRequest, Stage, Watch};
 use super::super::state::{PilotState, RunIdentity};
 use super::session::{End, Run};
-use super::so_far::{SoFar, Solution, Watcher};
-use super::{check, run_on};
+use super::so_far::{Elsewhere, SoFar, Solution, Watcher};
+use super::stages::{check, run_on};
 use crate::engine::judge::energy_bound;
 use crate::engine::light::Lighting;
 use crate::engine::plan::Plan;
@@ -15,11 +15,6 @@ use crate::map::Method;
 use crate::scene::Scene;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Increments that are made elsewhere: the part of a run that begins with the increment of this number, on the mesh of
-/// this pilot. A part with one increment gives the same bits as a run that makes all increments itself. `None` stops
-/// the run.
-pub type Elsewhere<'e> = dyn FnMut(&PilotState, u64) -> Result<Option<RunPart>, SolveError> + 'e;
 
 /// Computes a map as [`super::solve`] does, from increments that are made elsewhere. The pilot and the audit are made
 /// here.
@@ -124,6 +119,7 @@ fn begun<'s, 'r>(
 ) -> Result<Run<'s, 'r>, SolveError> {
     let run = Run::new(scene, request);
     run.identity.check(&pilot.identity)?;
+    pilot.check(scene)?;
     let (stage, saved_pilot) = (pilot.stage, Some(pilot.clone()));
     Ok(Run { stage, saved_pilot, saved_stage: stage, rays: pilot.rays, ..run })
 }
@@ -161,45 +157,6 @@ impl PartMaker<'_, '_, '_> {
 }
 
 impl<'s> Run<'s, '_> {
-    /// Adds the next increments, which are made elsewhere. Returns `false` if the run is stopped there. If it is
-    /// stopped before the first increment, the map is that of the pilot.
-    pub(super) fn take_from(
-        &mut self,
-        elsewhere: &mut Elsewhere<'_>,
-        work: &mut Work,
-    ) -> Result<bool, SolveError> {
-        let count = work.sums.increments;
-        if self.stopped && count > 0 {
-            return Ok(false);
-        }
-        let Some(part) = elsewhere(&self.pilot_state(work.plan), count)? else {
-            if count == 0 {
-                self.cut = true;
-                work.take_light_of_pilot();
-            }
-            return Ok(false);
-        };
-        self.identity.check(&part.identity)?;
-        if part.stage != self.stage || !part.is_sound() {
-            return Err(SolveError::Unsound("the part"));
-        }
-        if part.ranges().as_slice() != [count..count + part.increments()] {
-            return Err(SolveError::Missing(count..count + 1));
-        }
-        for segment in &part.segments {
-            work.add(segment)?;
-            self.rays += segment.rays;
-            self.note_noise_after(work);
-        }
-        Ok(true)
-    }
-
-    fn note_noise_after(&mut self, work: &Work) {
-        if work.sums.increments.is_power_of_two() {
-            self.note_noise(work, work.accuracy());
-        }
-    }
-
     fn merged(mut self, plan: &Plan<'s>, part: &RunPart) -> Result<Solution, SolveError> {
         let mut work = Work::new(plan, self.request, self.mesh_for(), 0);
         for segment in &part.segments {

@@ -3,7 +3,9 @@
 use super::super::increments::Work;
 use super::super::prediction;
 use super::super::request::{Prediction, Progress, SolveRequest, Stage, Watch};
-use super::super::state::{Audited, PilotState, RunIdentity, RunState};
+use super::super::state::{
+    Audited, MOST_STAGES, PilotState, RunIdentity, RunState, STAGES_TO_HALF,
+};
 use super::so_far::{SoFar, Solution, Watcher};
 use crate::ablation::without;
 use crate::engine::gather::Unlit;
@@ -23,11 +25,6 @@ use std::time::{Duration, Instant};
 const PILOT_SHARE: f64 = 0.4;
 /// The largest number of halvings of the rays of an increment, where time is short.
 const MOST_HALVINGS: u32 = 8;
-/// The number of stages that halve the error which elements are made for.
-const STAGES_TO_HALF: u32 = 4;
-/// The largest number of stages, after which a run keeps what it has. The last one has elements for an eighth of the
-/// accuracy goal.
-pub(super) const MOST_STAGES: u32 = 3 * STAGES_TO_HALF + 1;
 /// The least number of stages to advance, since the error of the elements is known with some noise.
 pub(super) const FEWEST_STAGES: u32 = 2;
 /// The error that finer elements are to have after too coarse ones, as a share of the accuracy goal. Noise needs the
