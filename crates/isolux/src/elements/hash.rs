@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::hash::{BuildHasher, Hasher, RandomState};
 
 /// Serializes a table in the order of its keys.
-pub(crate) fn table_in_order<K: Ord + Serialize, V: Serialize, S: Serializer>(
-    table: &HashMap<K, V, FewNumbers>,
+pub(crate) fn table_in_order<K: Ord + Serialize, V: Serialize, H, S: Serializer>(
+    table: &HashMap<K, V, H>,
     to: S,
 ) -> Result<S::Ok, S::Error> {
     to.collect_map(table.iter().collect::<BTreeMap<_, _>>())

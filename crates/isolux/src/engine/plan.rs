@@ -2,8 +2,8 @@
 
 use crate::elements::{Elements, Subdivision, carries_map};
 use crate::engine::gather::{
-    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering, Over, RayTrial, areas_m2,
-    known_at,
+    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering, Over, RayTrial, Unlit,
+    areas_m2, known_at,
 };
 use crate::engine::light::{Emission, Lighting};
 use crate::engine::mesh::{Carriers, Fit, LeafError, Trust, TrustLevels, Waiting, trust};
@@ -32,6 +32,8 @@ pub struct PilotResult {
     pub(super) light: Arc<PlannedLight>,
     pub(super) errors: Arc<PlannedErrors>,
     pub(super) tried: Arc<PlannedNoise>,
+    /// The places found unlit, for the pilots of finer elements.
+    pub(super) unlit: Arc<Unlit>,
     /// Whether there was time for all steps of the pilot.
     pub(super) is_whole: bool,
     /// Whether elements for a higher accuracy would be about the same, since their number is at its limits.

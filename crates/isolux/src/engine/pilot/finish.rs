@@ -95,6 +95,7 @@ impl<'s> Pilot<'s> {
             light: Arc::new(light),
             errors: Arc::new(errors),
             tried: Arc::new(tried),
+            unlit: Arc::new(self.near.unlit),
             is_whole: self.is_whole,
             is_finest: self.mesh.is_full
                 && self.direct.excess.is_some_and(|(_, excess)| excess > 1.0),

@@ -26,7 +26,7 @@ fn room_with_shelves() -> Scene {
 fn plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>, mesh_target: f64) -> Plan<'s> {
     let request =
         PilotRequest { mesh_target, most_for_indirect_light: Some(300), ..usual_request() };
-    pilot(scene, lighting, &request, &mut Unlit::default(), &mut |_| true)
+    pilot(scene, lighting, &request, &Unlit::default(), &mut |_| true)
 }
 
 #[test]

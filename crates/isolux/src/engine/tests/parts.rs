@@ -165,8 +165,8 @@ fn caustic_error(plan: &Plan, particles: u32) -> f64 {
 fn elements_are_as_fine_as_a_sharp_caustic_needs() {
     let scene = room_with_a_lens();
     let lighting = Lighting::new(&scene);
-    let mut coarse = pilot(&scene, &lighting, &request(1.0), &mut Unlit::default(), &mut |_| true);
-    let mut fine = pilot(&scene, &lighting, &request(0.03), &mut Unlit::default(), &mut |_| true);
+    let mut coarse = pilot(&scene, &lighting, &request(1.0), &Unlit::default(), &mut |_| true);
+    let mut fine = pilot(&scene, &lighting, &request(0.03), &Unlit::default(), &mut |_| true);
     let all_parts = |plan: &Plan| {
         let leaves: Vec<u32> = plan.mesh.subdivision.leaves().collect();
         ElementParts::new(&plan.mesh.subdivision, &leaves)

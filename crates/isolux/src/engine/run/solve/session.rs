@@ -17,7 +17,6 @@ use crate::engine::plan::Plan;
 use crate::engine::ray::{Deadline, Sums};
 use crate::map::{Accuracy, Audit, IlluminationMap, Method, Provenance};
 use crate::scene::Scene;
-use std::mem;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -57,7 +56,7 @@ pub(super) struct Run<'s, 'r> {
     /// The duration of the last pilot, s.
     pub(super) pilot_s: f64,
     /// The places that pilots have found unlit.
-    pub(super) unlit: Unlit,
+    pub(super) unlit: Arc<Unlit>,
     /// The stage of the saved run that this one continues; zero if there is none.
     pub(super) saved_stage: u32,
     /// The pilot of a saved run, in place of one of the same stage.
@@ -85,7 +84,7 @@ impl<'s, 'r> Run<'s, 'r> {
             cut: false,
             stage: 1,
             pilot_s: 0.0,
-            unlit: Unlit::default(),
+            unlit: Arc::default(),
             saved_stage: 0,
             lighting: None,
             audited: Audited::default(),
@@ -176,6 +175,7 @@ impl<'s, 'r> Run<'s, 'r> {
         match self.saved_pilot.take_if(|saved| saved.stage == self.stage) {
             Some(PilotState { rays, result, .. }) => {
                 self.rays_of_pilots = rays;
+                self.unlit = Arc::clone(&result.unlit);
                 Plan { scene: self.scene, lighting, result }
             }
             None => self.pilot(lighting, watch),
@@ -186,8 +186,8 @@ impl<'s, 'r> Run<'s, 'r> {
         let request = self.pilot_request();
         let (before, started_s) = (self.rays, self.elapsed_s());
         let scene = self.scene;
-        let mut unlit = mem::take(&mut self.unlit);
-        let plan = pilot(scene, lighting, &request, &mut unlit, &mut |round| {
+        let unlit = Arc::clone(&self.unlit);
+        let plan = pilot(scene, lighting, &request, &unlit, &mut |round| {
             self.rays = before + round.rays;
             let progress = self.progress(Stage::Pilot, 0, round.receivers as u64, None);
             let progress = Progress { prediction: self.foreseen(round), ..progress };
@@ -199,7 +199,7 @@ impl<'s, 'r> Run<'s, 'r> {
             self.stage == self.saved_stage
                 || !(self.stopped || self.refined_long_enough(round.step_s))
         });
-        self.unlit = unlit;
+        self.unlit = Arc::clone(&plan.unlit);
         self.cut |= !plan.is_whole;
         self.rays = before + plan.rays;
         self.rays_of_pilots = self.rays;
