@@ -139,7 +139,7 @@ pub(crate) struct NewFlags {
 /// Rooms to begin with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum RoomKind {
-    /// Desks, a cupboard and luminous panels for about 500 lx
+    /// Desks, a cupboard and as many luminous panels as about 500 lx take; in a small room one panel gives more
     Office,
     /// Luminous panels alone
     Empty,
