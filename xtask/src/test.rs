@@ -33,12 +33,19 @@ fn every_change(all: bool) -> [Step; 9] {
 }
 
 /// What takes longer or changes less, and must hold before a release.
-const ALL: [Step; 4] = [
+const ALL: [Step; 5] = [
     ("the ray kernel under the address sanitizer", sanitize::run),
+    ("a billion rays in a closed hall", |root| {
+        let kernel = ["test", "--release", "--quiet", "--package", "isolux-geometry"];
+        cargo(root, &[&kernel[..], &["--", "--ignored", "--exact", BILLION]].concat())
+    }),
     ("comparison of all systems, as short as it can be", compared::run),
     ("golden maps", |root| golden::run(root, &[])),
     ("validation against exact values", validate),
 ];
+
+/// The test of a billion rays.
+const BILLION: &str = "watertight::nothing_leaves_the_hall_in_a_billion_rays";
 
 /// What is done, and how.
 type Step = (&'static str, fn(&Path) -> Result<String, String>);

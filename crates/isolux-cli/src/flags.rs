@@ -75,6 +75,8 @@ pub(crate) enum Command {
     Export(ExportFlags),
     /// Add maps of luminaire groups, each dimmed as you like, without a new run
     Mix(MixFlags),
+    /// Add the parts of a run that were made apart, on one machine or many, to its map
+    Merge(MergeFlags),
     /// Audit a scene before a run
     Check(CheckFlags),
     /// Test independently, by complete paths, what a map claims
@@ -104,6 +106,7 @@ impl Command {
             Self::Solve(flags) => flags.threads,
             Self::Export(flags) => flags.threads,
             Self::Bake(flags) => flags.threads,
+            Self::Merge(flags) => flags.threads,
             Self::Compare(flags) => flags.threads,
             _ => None,
         }
@@ -148,7 +151,7 @@ pub(crate) struct NewFlags {
 /// Rooms to begin with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum RoomKind {
-    /// Desks, a cupboard and luminous panels for about 500 lx
+    /// Desks, a cupboard and as many luminous panels as about 500 lx take; in a small room one panel gives more
     Office,
     /// Luminous panels alone
     Empty,
@@ -307,6 +310,39 @@ pub(crate) struct GridFlags {
     /// Draw the one grid as a plan: the room cut at its height, luminaires, values, isolux lines; u to the right and v up
     #[arg(short = 'o', long, value_name = "FILE.png|FILE.svg")]
     pub picture: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux solve room.toml -o room.pilot
+  isolux solve room.toml --pilot room.pilot --increments 0..8 -o a.part
+  isolux solve room.toml --pilot room.pilot --increments 8..16 -o b.part
+  isolux merge b.part a.part --pilot room.pilot -o map.glb
+
+Parts merge in any order and grouping. If they are the first increments of the run without a gap, their map has the bytes of a run \
+that was stopped, or ended, after as many. The map is audited here. Parts of radiosity do not exist: each of its increments continues the one before.")]
+pub(crate) struct MergeFlags {
+    /// Parts of one run, from `solve --increments`
+    #[arg(required = true, value_name = "PART.part")]
+    pub parts: Vec<PathBuf>,
+    /// Where to write the map (.glb), or a part with all these increments (.part)
+    #[arg(short, long, value_name = "OUT.glb|OUT.part")]
+    pub output: PathBuf,
+    /// The scene, if it is not where it was when the parts were made
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<PathBuf>,
+    /// Begin with the result of this pilot instead of making the same one again
+    #[arg(long, value_name = "FILE.pilot")]
+    pub pilot: Option<PathBuf>,
+    /// Leave the noise in, as `solve --no-filter` does
+    #[arg(long)]
+    pub no_filter: bool,
+    /// Threads to use, at most 1024 [default: all there are]; the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
+    pub threads: Option<u16>,
+    /// How to report progress on standard error [default: bar on a terminal, else lines]
+    #[arg(long, value_enum)]
+    pub progress: Option<ProgressStyle>,
 }
 
 #[derive(Debug, Args)]

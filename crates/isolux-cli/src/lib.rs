@@ -45,12 +45,15 @@ mod maintained;
 mod map_facts;
 mod map_file;
 mod memory;
+mod merge;
 mod meter;
 mod mix;
 mod new;
 mod notes;
 mod origin;
 mod output;
+mod part_files;
+mod parted;
 mod points;
 mod probe;
 mod progress;
@@ -123,6 +126,7 @@ fn carry_out(flags: &Flags) -> Result<Outcome, Failure> {
         Command::New(flags) => new::run(flags, json),
         Command::Demo(flags) => demo::run(flags, json),
         Command::Mix(flags) => mix::run(flags, json),
+        Command::Merge(flags) => merge::run(flags, json),
         Command::Info(flags) => info::run(flags, json),
         Command::Completions(flags) => shell::completions(flags, json),
         Command::Man(flags) => shell::man(flags, json),

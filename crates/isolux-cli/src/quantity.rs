@@ -71,6 +71,24 @@ pub(crate) fn places(text: &str) -> Result<u64, String> {
     whole(text, 16, 10_000_000)
 }
 
+/// A range of increments of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Increments {
+    /// The number of the first one.
+    pub first: u64,
+    /// The number of the one after the last.
+    pub end: u64,
+}
+
+/// A range of increments: `0..8` are the first eight.
+pub(crate) fn increments(text: &str) -> Result<Increments, String> {
+    /// A run has no more.
+    const MOST: u64 = 1 << 15;
+    let (first, end) = text.split_once("..").ok_or("two numbers are needed: 0..8")?;
+    let (first, end) = (whole(first, 0, MOST - 1)?, whole(end, 1, MOST)?);
+    if first < end { Ok(Increments { first, end }) } else { Err("the range is empty".into()) }
+}
+
 /// A number of receivers.
 pub(crate) fn receivers(text: &str) -> Result<u32, String> {
     whole(text, 1, u32::MAX)

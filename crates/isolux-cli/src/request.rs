@@ -7,6 +7,7 @@ use crate::output::OutputPath;
 use isolux::engine::{IrradianceCache, RadiositySettings, SolveRequest};
 use isolux::map::Method;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::path::Path;
 
 /// Stack of a thread: as much as the first one of a process has.
 const STACK_BYTES: usize = 8 << 20;
@@ -22,7 +23,14 @@ pub(crate) struct Solution {
 
 /// Checks everything that can be checked before a scene is read.
 pub(crate) fn solution(flags: &SolveFlags) -> Result<Solution, Failure> {
-    let output = flags.output.as_deref().map(|path| OutputPath::check(path, "glb")).transpose()?;
+    let output = flags.output.as_deref();
+    if let Some(part) = output.filter(|path| flags.increments.is_none() && is_part(path)) {
+        return Err(Failure::bad_input(format!(
+            "{}: which part of the run? Add --increments A..B, or end the name in .glb for a map",
+            part.display()
+        )));
+    }
+    let output = output.map(|path| OutputPath::check_any(path, written(flags))).transpose()?;
     if let Some(output) = &output {
         output.differs_from(&flags.scene)?;
     }
@@ -35,6 +43,18 @@ pub(crate) fn solution(flags: &SolveFlags) -> Result<Solution, Failure> {
         refuse_radiosity(&flags.radiosity)?;
     }
     Ok(Solution { request: request(flags), output })
+}
+
+fn is_part(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("part"))
+}
+
+/// What a run writes.
+const fn written(flags: &SolveFlags) -> &'static [&'static str] {
+    match flags.increments {
+        Some(_) => &["part"],
+        None => &["glb", "pilot"],
+    }
 }
 
 /// Flags that another method has no use for are mistakes.

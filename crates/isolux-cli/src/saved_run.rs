@@ -4,13 +4,13 @@ use crate::failure::Failure;
 use crate::map_file;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
+use crate::part_files;
 use crate::source::bad_file;
-use isolux::engine::{Audited, RunIdentity, RunState, SoFar, SolveRequest, Sums};
+use isolux::engine::{RunIdentity, RunState, SoFar, SolveRequest};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
-use isolux_formats::checkpoint::{self, ArrayError, Checkpoint};
+use isolux_formats::checkpoint;
 use isolux_formats::{Problem, Problems, atomic};
-use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -23,53 +23,65 @@ pub(crate) fn path_beside(map: &Path) -> PathBuf {
     map.with_extension("checkpoint")
 }
 
-/// What stands in front of the sums.
-#[derive(Serialize, Deserialize)]
-struct Header {
-    identity: RunIdentity,
-    stage: u32,
-    rays: u64,
-    increments: u64,
-    #[serde(default)]
-    audited: Audited,
+/// Where the result of its pilot is kept, once for all states on the same mesh.
+fn pilot_beside(map: &Path) -> PathBuf {
+    map.with_extension("pilot")
 }
 
 /// Keeps the state of an unfinished run, and removes that of a finished one.
 pub(crate) fn keep(output: &OutputPath, state: &RunState, finished: bool) -> Result<(), Failure> {
-    let path = path_beside(output.path());
     if finished {
-        // There may be none.
-        std::fs::remove_file(&path).or_else(|e| match e.kind() {
-            std::io::ErrorKind::NotFound => Ok(()),
-            _ => Err(Failure::Refused(format!("{}: cannot be removed ({e})", path.display()))),
-        })
+        remove(&path_beside(output.path()))?;
+        remove(&pilot_beside(output.path()))
     } else {
         // It could be written when it was checked: what keeps it from it now is the machine.
-        write(output, state).map_err(|problem| Failure::Refused(problem.to_string()))
+        write(output, state).map_err(|problem| Failure::Refused(problem.to_string()))?;
+        if let Some(pilot) = &state.pilot {
+            part_files::write_pilot(&pilot_beside(output.path()), pilot)
+                .map_err(|problem| Failure::Refused(problem.to_string()))?;
+        }
+        Ok(())
     }
 }
 
+/// Removes a file; there may be none.
+fn remove(path: &Path) -> Result<(), Failure> {
+    std::fs::remove_file(path).or_else(|e| match e.kind() {
+        std::io::ErrorKind::NotFound => Ok(()),
+        _ => Err(Failure::Refused(format!("{}: cannot be removed ({e})", path.display()))),
+    })
+}
+
 fn write(output: &OutputPath, state: &RunState) -> Result<(), Problem> {
-    checkpoint::write(&path_beside(output.path()), &to_checkpoint(state))
+    checkpoint::write(&path_beside(output.path()), &checkpoint::of_state(state))
 }
 
 /// Keeps the state of a run on the way, so that hours of work do not end with the machine.
 pub(crate) struct Keeper<'a> {
     output: &'a OutputPath,
     due: Instant,
+    /// The number of the mesh whose pilot is kept, zero for none.
+    stage: u32,
 }
 
 impl<'a> Keeper<'a> {
     /// Beside a map.
     pub(crate) fn beside(output: &'a OutputPath) -> Self {
-        Self { output, due: Instant::now() + KEPT_AFTER }
+        Self { output, due: Instant::now() + KEPT_AFTER, stage: 0 }
     }
 
     /// Keeps what a run has come to, if it is time for it. Who cannot be kept goes on.
     pub(crate) fn look(&mut self, so_far: &SoFar) {
         let started = Instant::now();
         let Some(state) = (started >= self.due).then(|| so_far.state()).flatten() else { return };
-        if let Err(problem) = write(self.output, &state) {
+        let mut written = write(self.output, &state);
+        if let (Some(pilot), Ok(())) =
+            (state.pilot.filter(|pilot| pilot.stage != self.stage), &written)
+        {
+            self.stage = pilot.stage;
+            written = part_files::write_pilot(&pilot_beside(self.output.path()), &pilot);
+        }
+        if let Err(problem) = written {
             note(Note::Warning, problem);
         }
         self.due = Instant::now() + KEPT_AFTER.max(KEEPING * started.elapsed());
@@ -108,66 +120,23 @@ pub(crate) fn read(output: &OutputPath, max_bytes: u64) -> Result<Option<RunStat
         return Ok(None);
     }
     let checkpoint = checkpoint::read(&path, max_bytes).map_err(|p| bad_file(Problems::from(p)))?;
-    let state = from_checkpoint(&checkpoint).map_err(|what| {
+    let state = checkpoint::state(&checkpoint).map_err(|what| {
         let remedy = "remove it and solve from the beginning";
         bad_file(Problems::from(Problem::new(&path, "", what, remedy)))
     })?;
-    Ok(Some(state))
+    let path = pilot_beside(output.path());
+    let pilot = match path.exists() {
+        true => Some(part_files::read_pilot(&path, max_bytes)?),
+        false => None,
+    };
+    // One of an earlier mesh was not replaced yet: the pilot is made again.
+    let pilot = pilot.filter(|of| of.stage == state.stage && of.identity == state.identity);
+    Ok(Some(RunState { pilot, ..state }))
 }
 
 /// Fails before computing where the state could not be written.
 pub(crate) fn check_writable(output: &OutputPath) -> Result<(), Failure> {
     atomic::check_writable(&path_beside(output.path())).map_err(|p| bad_file(Problems::from(p)))
-}
-
-fn to_checkpoint(state: &RunState) -> Checkpoint {
-    let header = Header {
-        identity: state.identity.clone(),
-        stage: state.stage,
-        rays: state.rays,
-        increments: state.increments,
-        audited: state.audited.clone(),
-    };
-    let header = serde_json::to_value(&header).expect("plain values always have a JSON value");
-    let mut checkpoint = Checkpoint::new(header);
-    let arrays =
-        [("receivers", &state.receivers), ("checks", &state.checks), ("given_up", &state.given_up)];
-    for (name, sums) in arrays {
-        let values: Vec<i64> = sums.iter().flat_map(|s| s.values).collect();
-        let totals: Vec<i64> = sums.iter().flat_map(|s| s.totals).collect();
-        let squares: Vec<i128> = sums.iter().flat_map(|s| s.squares).collect();
-        checkpoint.push(format!("{name}_values"), &values);
-        checkpoint.push(format!("{name}_totals"), &totals);
-        checkpoint.push(format!("{name}_squares"), &squares);
-    }
-    checkpoint
-}
-
-fn from_checkpoint(checkpoint: &Checkpoint) -> Result<RunState, String> {
-    let header: Header = serde_json::from_value(checkpoint.header.clone())
-        .map_err(|e| format!("its header is not that of a run ({e})"))?;
-    let sums = |name: &str| sums(checkpoint, name).map_err(|e| e.to_string());
-    Ok(RunState {
-        identity: header.identity,
-        stage: header.stage,
-        rays: header.rays,
-        increments: header.increments,
-        audited: header.audited,
-        receivers: sums("receivers")?,
-        checks: sums("checks")?,
-        given_up: sums("given_up")?,
-    })
-}
-
-fn sums(checkpoint: &Checkpoint, name: &str) -> Result<Vec<Sums>, ArrayError> {
-    let values = checkpoint.integers::<i64>(&format!("{name}_values"))?;
-    let totals = checkpoint.integers::<i64>(&format!("{name}_totals"))?;
-    let squares = checkpoint.integers::<i128>(&format!("{name}_squares"))?;
-    let (values, _) = values.as_chunks::<9>();
-    let (totals, _) = totals.as_chunks::<3>();
-    let (squares, _) = squares.as_chunks::<3>();
-    let rows = values.iter().zip(totals).zip(squares);
-    Ok(rows.map(|((&values, &totals), &squares)| Sums { values, totals, squares }).collect())
 }
 
 #[cfg(test)]
@@ -181,7 +150,7 @@ mod tests {
         let output = OutputPath::check(&home.path().join("map.glb"), "glb").unwrap();
         let scene = crate::source::read_scene(Path::new("builtin:cube")).unwrap();
         let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
-        let mut keeper = Keeper { output: &output, due: Instant::now() };
+        let mut keeper = Keeper { output: &output, due: Instant::now(), stage: 0 };
         let whole = solve_looked_at(&scene, &request, None, &mut |_, so_far| {
             keeper.look(so_far);
             Watch::Continue

@@ -16,7 +16,7 @@ use crate::progress::Reporter;
 use crate::report::Report;
 use crate::serving::Live;
 use crate::solving::{Run, Solved, estimate, solve};
-use crate::{cache_samples, explain, groups, kept, memory, request, saved_run, source};
+use crate::{cache_samples, explain, groups, kept, memory, parted, request, saved_run, source};
 use isolux::engine::{IrradianceCache, RunState, Solution, SolveRequest};
 use isolux::scene::Scene;
 use isolux_formats::lightmap::Target;
@@ -33,6 +33,9 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         true => source::diffuse(&flags.scene, &scene)?,
         false => scene,
     };
+    if let Some(output) = asked.output.as_ref().filter(|output| parted::is_wanted(output)) {
+        return parted::run(flags, (&scene, output, &asked.request), json);
+    }
     if flags.explain {
         explain::lines(&scene, &asked.request).iter().for_each(|line| note(Note::Info, line));
     }

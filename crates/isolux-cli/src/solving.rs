@@ -277,7 +277,7 @@ fn failure(error: SolveError, (scene, run): (&Scene, &Run)) -> Failure {
 }
 
 /// Why a scene cannot be solved.
-fn unsolvable(error: SolveError, (scene, path): (&Scene, &Path)) -> Failure {
+pub(crate) fn unsolvable(error: SolveError, (scene, path): (&Scene, &Path)) -> Failure {
     let source = path.display();
     match error {
         SolveError::Memory { needed, allowed } => Failure::Refused(format!(

@@ -59,7 +59,7 @@ pub(super) fn run(
         (with(&state, |h| h["identity"]["build"] = json!("another"))?, "the build of isolux"),
         (with(&state, |h| h["identity"]["build"] = Value::Null)?, "its header"),
         (in_format(&state, 0), "it has format 0"),
-        (in_format(&state, 2), "it has format 2"),
+        (in_format(&state, 3), "it has format 3"),
     ];
     refused = 0;
     for (state, said) in &builds {

@@ -27,6 +27,7 @@ const PARTS: [Part; 6] = [
             ("maps_read", "maps found, all whole"),
             ("from_state", "resumed from a checkpoint"),
             ("unfinished_left", "unfinished files left"),
+            ("in_time", "complete within their limit"),
             ("same_bytes", "ended with the same bytes"),
         ],
     },

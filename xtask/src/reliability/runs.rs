@@ -111,6 +111,17 @@ impl Bench<'_> {
             .collect()
     }
 
+    /// Whether there is a map of a run that needs no resuming. The sum of groups is none.
+    pub(super) fn has_complete_map(&self) -> bool {
+        let names = self.names();
+        let mut maps: Vec<&str> =
+            names.iter().filter_map(|name| name.strip_suffix(".glb")).collect();
+        if maps.len() > 1 {
+            maps.retain(|name| name.contains('.'));
+        }
+        maps.iter().any(|map| !names.contains(&format!("{map}.checkpoint")))
+    }
+
     /// The first map in the folder that cannot be read.
     pub(super) fn broken_map(&self) -> Result<Option<String>, String> {
         for name in self.maps().into_keys() {

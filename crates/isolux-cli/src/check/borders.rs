@@ -51,7 +51,7 @@ impl Borders {
         let mut found = Vec::new();
         if let Some((shape, count)) = &self.worst {
             found.push(Finding::note(
-                format!("shape `{shape}`"),
+                if shape.is_empty() { "scene".to_owned() } else { format!("shape `{shape}`") },
                 format!("{count} of the {} open edges of the scene", self.open),
                 "fine for single sheets; where walls should meet, light leaks: weld them",
             ));

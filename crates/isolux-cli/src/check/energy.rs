@@ -60,7 +60,7 @@ impl Energy {
             found.push(Finding::warning(
                 "scene",
                 "there is no light",
-                "name the file in a scene.toml and add a [[luminaire]], or let a material emit",
+                "let a material emit, or write a scene.toml with a [[luminaire]] that names this file as its geometry",
             ));
         }
         let brightness = if lit_m2 > 0.0 { self.flux_lm / lit_m2 } else { 0.0 };

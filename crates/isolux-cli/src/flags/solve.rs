@@ -1,7 +1,7 @@
 //! Arguments of `solve`.
 
 use super::shown::{LayoutFlags, LayoutName, ServerFlags, TargetName};
-use crate::quantity;
+use crate::quantity::{self, Increments};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -19,15 +19,24 @@ pub(super) const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, .ply, .
   isolux solve room.glb -o map.glb --accuracy 1%
   isolux solve builtin:cube -o cube.glb --quality draft --json
   isolux solve room.glb -o map.glb --time-limit 5min
-  isolux solve room.glb -o map.glb --layout texels --texels-per-meter 20")]
+  isolux solve room.glb -o map.glb --layout texels --texels-per-meter 20
+  isolux solve room.glb -o room.pilot
+  isolux solve room.glb --pilot room.pilot --increments 0..8 -o first.part; isolux merge first.part second.part -o map.glb")]
 pub(crate) struct SolveFlags {
     #[arg(help = SCENE_HELP)]
     pub scene: PathBuf,
     #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
     pub further: Vec<PathBuf>,
-    /// Where to write the map (.glb)
+    /// Where to write the map (.glb), the result of the pilot alone (.pilot), or with --increments a part of the run (.part)
     #[arg(short, long, value_name = "MAP.glb", required_unless_present = "dry_run")]
     pub output: Option<PathBuf>,
+    /// Make these increments alone, from number A to B - 1, for `merge`: 0..8
+    #[arg(long, value_name = "A..B", value_parser = quantity::increments, allow_hyphen_values = true,
+          conflicts_with_all = ["resume", "live", "group", "dry_run", "cache"])]
+    pub increments: Option<Increments>,
+    /// With --increments: begin with the result of this pilot instead of making the same one again
+    #[arg(long, value_name = "FILE.pilot", requires = "increments")]
+    pub pilot: Option<PathBuf>,
     #[command(flatten)]
     pub layout: LayoutFlags,
     /// Stop when the whole error of the scene is this small: 1% or 0.01

@@ -16,6 +16,7 @@ mod groups;
 mod interrupted;
 mod lightmaps;
 mod lint;
+mod parts;
 mod pictures;
 mod plans;
 mod ran;

@@ -10,10 +10,10 @@ use std::io::Read;
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ISOLUXCK";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const PREFIX_BYTES: usize = 16;
 const HASH_BYTES: usize = blake3::OUT_LEN;
-const START_ANEW: &str = "start the run anew, without resuming";
+const START_ANEW: &str = "remove it, and compute anew what it was of";
 
 #[derive(Serialize, Deserialize)]
 struct Contents<H> {
@@ -29,6 +29,13 @@ struct Entry {
 
 /// Writes a checkpoint in place of an older one: at any moment one of the two is there, whole.
 pub fn write(path: &Path, checkpoint: &Checkpoint) -> Result<(), Problem> {
+    let bytes = to_bytes(checkpoint)
+        .map_err(|what| Problem::new(path, "header", what, "keep less in it"))?;
+    atomic::write(path, &bytes)
+}
+
+/// The bytes of a checkpoint as a file. The error is a header of more than 4 GiB.
+pub fn to_bytes(checkpoint: &Checkpoint) -> Result<Vec<u8>, String> {
     let entry =
         |(name, bytes): &(String, Vec<u8>)| Entry { name: name.clone(), bytes: bytes.len() };
     let contents = Contents {
@@ -37,8 +44,7 @@ pub fn write(path: &Path, checkpoint: &Checkpoint) -> Result<(), Problem> {
     };
     let json = serde_json::to_vec(&contents).expect("JSON of JSON with names for keys");
     let Ok(json_length) = u32::try_from(json.len()) else {
-        let what = format!("the header takes {} bytes, more than 4 GiB", json.len());
-        return Err(Problem::new(path, "header", what, "keep less in it"));
+        return Err(format!("the header takes {} bytes, more than 4 GiB", json.len()));
     };
     let arrays: usize = checkpoint.arrays.iter().map(|(_, bytes)| bytes.len()).sum();
     let mut bytes = Vec::with_capacity(PREFIX_BYTES + json.len() + arrays + HASH_BYTES);
@@ -51,13 +57,13 @@ pub fn write(path: &Path, checkpoint: &Checkpoint) -> Result<(), Problem> {
     }
     let hash = blake3::hash(&bytes);
     bytes.extend(hash.as_bytes());
-    atomic::write(path, &bytes)
+    Ok(bytes)
 }
 
 /// Reads a checkpoint of any origin that is no longer than `max_bytes`.
 pub fn read(path: &Path, max_bytes: u64) -> Result<Checkpoint, Problem> {
     let bytes = whole(path, max_bytes)?;
-    unpack(&bytes).map_err(|what| Problem::new(path, "", what, START_ANEW))
+    from_bytes(&bytes).map_err(|what| Problem::new(path, "", what, START_ANEW))
 }
 
 fn whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, Problem> {
@@ -76,7 +82,8 @@ fn whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, Problem> {
     Ok(bytes)
 }
 
-fn unpack(bytes: &[u8]) -> Result<Checkpoint, String> {
+/// The checkpoint in bytes of any origin. The error says what is wrong with them.
+pub fn from_bytes(bytes: &[u8]) -> Result<Checkpoint, String> {
     const CUT: &str = "the checkpoint is cut short";
     if !bytes.starts_with(MAGIC) {
         return Err("it is not a checkpoint of isolux".into());
@@ -164,12 +171,12 @@ mod tests {
     fn every_cut_and_every_changed_byte_is_noticed() {
         let whole = packed(&example());
         for length in 0..whole.len() {
-            assert!(unpack(&whole[..length]).is_err(), "cut at {length}");
+            assert!(from_bytes(&whole[..length]).is_err(), "cut at {length}");
         }
         for at in 0..whole.len() {
             let mut bytes = whole.clone();
             bytes[at] ^= 0x10;
-            assert!(unpack(&bytes).is_err(), "byte {at}");
+            assert!(from_bytes(&bytes).is_err(), "byte {at}");
         }
     }
 
@@ -192,13 +199,13 @@ mod tests {
             (r#"{"header":1}"#, 0, "broken"),
             ("", 0, "broken"),
         ] {
-            let found = unpack(&with_json(json, &vec![0; arrays])).unwrap_err();
+            let found = from_bytes(&with_json(json, &vec![0; arrays])).unwrap_err();
             assert!(found.contains(said), "{json}: {found}");
         }
         let huge = [MAGIC, &VERSION.to_le_bytes()[..], &[0xff; 4]].concat();
-        assert!(unpack(&sealed(huge)).unwrap_err().contains("cut short"));
+        assert!(from_bytes(&sealed(huge)).unwrap_err().contains("cut short"));
         let newer = [MAGIC, &7_u32.to_le_bytes()[..], &[0; 4]].concat();
-        assert!(unpack(&sealed(newer)).unwrap_err().contains("format 7"));
+        assert!(from_bytes(&sealed(newer)).unwrap_err().contains("format 7"));
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Checkpoints: the state of a run, enough to go on bit for bit.
 //!
+//! There are three kinds: the state of a run, the result of a pilot, and parts of a run (increments made apart).
+//!
 //! A header in JSON (hash of the scene, settings, version, counters: the engine's business) and
 //! named arrays of integers. In the file: `ISOLUXCK`, the format version and the length of a JSON
 //! text as `u32`, the text (`header`, and `name` and `bytes` of each array), the arrays one after
@@ -7,9 +9,11 @@
 
 mod file;
 mod integer;
+mod run;
 
-pub use file::{read, write};
+pub use file::{from_bytes, read, to_bytes, write};
 pub use integer::Integer;
+pub use run::{Part, of_part, of_pilot, of_state, part, pilot, state};
 
 use serde_json::Value;
 
@@ -58,12 +62,17 @@ impl Checkpoint {
         self.arrays.push((name, bytes));
     }
 
+    /// The bytes of an array.
+    pub fn array(&self, name: &str) -> Result<&[u8], ArrayError> {
+        let array = self.arrays.iter().find(|(found, _)| found == name);
+        array.map(|(_, bytes)| bytes.as_slice()).ok_or_else(|| ArrayError::Missing(name.to_owned()))
+    }
+
     /// The integers of an array.
     pub fn integers<T: Integer>(&self, name: &str) -> Result<Vec<T>, ArrayError> {
-        let array = self.arrays.iter().find(|(found, _)| found == name);
-        let (name, bytes) = array.ok_or_else(|| ArrayError::Missing(name.to_owned()))?;
+        let bytes = self.array(name)?;
         if bytes.len() % T::BYTES != 0 {
-            let (name, bytes) = (name.clone(), bytes.len());
+            let (name, bytes) = (name.to_owned(), bytes.len());
             return Err(ArrayError::Size { name, bytes, size: T::BYTES });
         }
         Ok(bytes.chunks_exact(T::BYTES).map(T::from_chunk).collect())

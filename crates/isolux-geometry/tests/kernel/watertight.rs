@@ -1,7 +1,7 @@
 //! No ray leaves a closed room.
 
 use crate::room::{self, Random};
-use isolux_geometry::{Point, Ray, TriangleMesh};
+use isolux_geometry::{Bvh, Point, Ray, TriangleMesh};
 
 /// Rays from inside towards edges and corners, and how many of them met nothing.
 fn leaks(mesh: &TriangleMesh, count: usize, origin: impl Fn(&mut Random) -> Ray) -> usize {
@@ -13,6 +13,33 @@ fn leaks(mesh: &TriangleMesh, count: usize, origin: impl Fn(&mut Random) -> Ray)
         kernels.iter().any(|bvh| bvh.closest_hit(&ray).is_none() || !bvh.any_hit(&ray))
     };
     (0..count).map(leaks).filter(|&leaks| leaks).count()
+}
+
+/// A billion rays: half of them towards edges and corners, half anywhere. It takes minutes, and is part of
+/// `cargo xtask test --all`.
+#[test]
+#[ignore = "a billion rays"]
+fn nothing_leaves_the_hall_in_a_billion_rays() {
+    const THREADS: u64 = 2;
+    const RAYS_EACH: u64 = 1_000_000_000 / THREADS;
+    let mesh = room::hall();
+    let bvh = Bvh::build(mesh.clone(), |_| false);
+    let leaks = |seed: u64| {
+        let mut random = Random(seed << 40);
+        let one = |number: u64| {
+            let ray = room::random_ray(&mut random);
+            let towards = number.is_multiple_of(2).then(|| room::edge_point(&mesh, &mut random));
+            let ray = towards.map_or(ray, |point| room::aimed(ray, point));
+            u64::from(bvh.closest_hit(&ray).is_none())
+        };
+        (0..RAYS_EACH).map(one).sum::<u64>()
+    };
+    let leaks = &leaks;
+    let leaks = std::thread::scope(|scope| {
+        let threads: Vec<_> = (1..=THREADS).map(|seed| scope.spawn(move || leaks(seed))).collect();
+        threads.into_iter().map(|thread| thread.join().expect("no thread panics")).sum::<u64>()
+    });
+    assert_eq!(leaks, 0);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::walk::MOST_NODES;
 use super::{Elements, Node, Split, Vertex};
 use isolux_geometry::{Point, Vector};
+use serde::{Deserialize, Serialize};
 
 /// The index that stands for none.
 const NONE: u32 = u32::MAX;
@@ -11,7 +12,7 @@ const NONE: u32 = u32::MAX;
 const MAX_DEPTH: u8 = 64;
 
 /// [`Elements`] as arrays of numbers.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ElementArrays {
     /// Vertex positions, m.
     pub positions: Vec<[f64; 3]>,
@@ -87,6 +88,20 @@ impl Elements {
             return Err(ElementArraysError::Index("a tree of bisections"));
         }
         Ok(elements)
+    }
+}
+
+impl From<Elements> for ElementArrays {
+    fn from(elements: Elements) -> Self {
+        elements.to_arrays()
+    }
+}
+
+impl TryFrom<ElementArrays> for Elements {
+    type Error = ElementArraysError;
+
+    fn try_from(arrays: ElementArrays) -> Result<Self, ElementArraysError> {
+        Self::from_arrays(&arrays)
     }
 }
 

@@ -1,6 +1,24 @@
 //! Tables by a few numbers: edges by their ends, places by their coordinates.
 
+use serde::{Serialize, Serializer};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::hash::{BuildHasher, Hasher, RandomState};
+
+/// Serializes a table in the order of its keys.
+pub(crate) fn table_in_order<K: Ord + Serialize, V: Serialize, H, S: Serializer>(
+    table: &HashMap<K, V, H>,
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    to.collect_map(table.iter().collect::<BTreeMap<_, _>>())
+}
+
+/// Serializes a set in the order of its members.
+pub(crate) fn set_in_order<K: Ord + Serialize, S: Serializer>(
+    set: &HashSet<K, FewNumbers>,
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    to.collect_seq(set.iter().collect::<BTreeSet<_>>())
+}
 
 /// Hashes a few numbers: the usual hash would take most of the time of a subdivision. It starts from a secret of its
 /// own, so that no file can make keys collide; the order of a table is random, therefore, and nothing may depend on it.

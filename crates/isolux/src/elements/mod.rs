@@ -13,12 +13,14 @@ mod tests;
 
 pub use arrays::{ElementArrays, ElementArraysError};
 pub use hash::FewNumbers;
+pub(crate) use hash::{set_in_order, table_in_order};
 pub(crate) use subdivide::edge_key;
 pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
 pub(crate) use subdivide::{first_corner_count, first_vertex_count};
 pub(crate) use walk::Place;
 
 use isolux_geometry::{Normal, Point};
+use serde::{Deserialize, Serialize};
 use walk::Walk;
 
 /// Elements or vertices of one task, where little is done for each.
@@ -36,7 +38,8 @@ pub struct PlaceOnSide {
 }
 
 /// The subdivided surfaces.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "ElementArrays", into = "ElementArrays")]
 pub struct Elements {
     vertices: Vec<Vertex>,
     nodes: Vec<Node>,

@@ -10,6 +10,7 @@ use super::{Elements, Node, Split, TOGETHER, Vertex};
 use crate::scene::{Finish, Scene};
 use isolux_geometry::{Normal, Point, Triangle};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 use std::collections::HashMap;
 
@@ -21,7 +22,8 @@ const CREASE_COS: f64 = 0.999_847_7;
 type Few = SmallVec<[u32; 2]>;
 
 /// Elements that can still be bisected.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(from = "Elements", into = "Elements")]
 pub struct Subdivision {
     vertices: Vec<Vertex>,
     nodes: Vec<Node>,
@@ -33,6 +35,42 @@ pub struct Subdivision {
     edges: HashMap<[u32; 2], Few, FewNumbers>,
     /// Of every vertex, whether it lies on an edge with elements on one side only: bisection changes that of none.
     on_border: Vec<bool>,
+}
+
+impl From<Subdivision> for Elements {
+    fn from(subdivision: Subdivision) -> Self {
+        subdivision.elements()
+    }
+}
+
+impl From<Elements> for Subdivision {
+    /// The subdivision with these elements. All else follows from them.
+    fn from(elements: Elements) -> Self {
+        let Elements { mut vertices, nodes, roots, .. } = elements;
+        vertices.iter_mut().for_each(|vertex| vertex.area_m2 = 0.0);
+        let mut origins = vec![Origin { triangle: 0, back: false, depth: 0 }; nodes.len()];
+        for (triangle, sides) in (0..).zip(&roots) {
+            for (root, back) in sides.iter().zip([false, true]) {
+                if let Some(root) = root {
+                    origins[*root as usize] = Origin { triangle, back, depth: 0 };
+                }
+            }
+        }
+        // Children come after their parents.
+        for node in 0..nodes.len() {
+            let Some(Split { first_child, .. }) = nodes[node].split else { continue };
+            let origin = Origin { depth: origins[node].depth + 1, ..origins[node] };
+            origins[first_child as usize..][..2].fill(origin);
+        }
+        let (longest, edges, on_border) = (Vec::new(), HashMap::default(), Vec::new());
+        let mut made = Self { vertices, nodes, origins, longest, roots, edges, on_border };
+        made.longest = made.nodes.iter().map(|node| made.longest_of(node.vertices)).collect();
+        for leaf in made.leaves().collect::<Vec<_>>() {
+            made.list_at_edges(leaf);
+        }
+        made.find_border();
+        made
+    }
 }
 
 /// Which side of which triangle a node is part of, and its depth in the tree.
@@ -63,10 +101,14 @@ impl Subdivision {
             let root = subdivision.push(corners, origin);
             subdivision.roots[origin.triangle as usize][usize::from(origin.back)] = Some(root);
         }
-        let mut on_border = vec![false; subdivision.vertices.len()];
-        subdivision.border_edges().iter().flatten().for_each(|&end| on_border[end as usize] = true);
-        subdivision.on_border = on_border;
+        subdivision.find_border();
         subdivision
+    }
+
+    fn find_border(&mut self) {
+        let mut on_border = vec![false; self.vertices.len()];
+        self.border_edges().iter().flatten().for_each(|&end| on_border[end as usize] = true);
+        self.on_border = on_border;
     }
 
     fn push(&mut self, vertices: [u32; 3], origin: Origin) -> u32 {
@@ -74,11 +116,16 @@ impl Subdivision {
         self.nodes.push(Node { vertices, split: None });
         self.origins.push(origin);
         self.longest.push(self.longest_of(vertices));
+        self.list_at_edges(node);
+        node
+    }
+
+    fn list_at_edges(&mut self, node: u32) {
+        let vertices = self.nodes[node as usize].vertices;
         for k in 0..3 {
             let edge = edge_key(vertices[k], vertices[(k + 1) % 3]);
             self.edges.entry(edge).or_default().push(node);
         }
-        node
     }
 
     /// The vertices, without areas.
@@ -89,6 +136,11 @@ impl Subdivision {
     /// Number of vertices.
     pub fn vertex_count(&self) -> usize {
         self.vertices.len()
+    }
+
+    /// The roots of front and back of every triangle of the scene.
+    pub(crate) fn roots(&self) -> &[[Option<u32>; 2]] {
+        &self.roots
     }
 
     /// Number of nodes of all trees.

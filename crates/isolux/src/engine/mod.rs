@@ -33,6 +33,8 @@ pub use read::{
     Allowance, ExactSettings, IndirectReading, MapReader, PictureLight, Told, net, reference_lx,
 };
 pub use run::{
-    Audited, Foreseen, Prediction, Progress, RunIdentity, RunState, SoFar, Solution, SolveError,
-    SolveRequest, Stage, Watch, Watcher, foresee, solve, solve_looked_at,
+    Audited, Elsewhere, Foreseen, MergeError, PartMaker, PilotState, Prediction, Progress,
+    RunIdentity, RunPart, RunState, Segment, SoFar, Solution, SolveError, SolveRequest, Stage,
+    Watch, Watcher, foresee, make_pilot, solve, solve_elsewhere, solve_looked_at, solve_merged,
+    with_parts,
 };

@@ -1,11 +1,11 @@
 //! The plan: the elements that the pilot has fixed, and all data that increments over them share.
 
-use crate::elements::{Elements, Subdivision};
+use crate::elements::{Elements, Subdivision, carries_map};
 use crate::engine::gather::{
-    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering, Over, RayTrial, areas_m2,
-    known_at,
+    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering, Over, RayTrial, Unlit,
+    areas_m2, known_at,
 };
-use crate::engine::light::Lighting;
+use crate::engine::light::{Emission, Lighting};
 use crate::engine::mesh::{Carriers, Fit, LeafError, Trust, TrustLevels, Waiting, trust};
 use crate::engine::occlusion::Barriers;
 use crate::engine::particle::{Aim, CausticNoise, ElementParts, LEAST_SHARE, flights};
@@ -13,16 +13,27 @@ use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
 use crate::scene::Scene;
 use crate::units::Rgb;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::ops::Deref;
 use std::sync::Arc;
 
-/// The result of the pilot.
+/// The result of the pilot, with the scene that it belongs to. It reads like that result.
 pub(super) struct Plan<'s> {
     pub(super) scene: &'s Scene,
     pub(super) lighting: &'s Lighting<'s>,
-    pub(super) mesh: PlannedMesh,
-    pub(super) light: PlannedLight,
-    pub(super) errors: PlannedErrors,
-    pub(super) tried: PlannedNoise,
+    pub(super) result: PilotResult,
+}
+
+/// The result of a pilot: a plain value, from which increments continue on any machine.
+#[derive(Clone, Serialize, Deserialize)]
+pub struct PilotResult {
+    pub(super) mesh: Arc<PlannedMesh>,
+    pub(super) light: Arc<PlannedLight>,
+    pub(super) errors: Arc<PlannedErrors>,
+    pub(super) tried: Arc<PlannedNoise>,
+    /// The places found unlit, for the pilots of finer elements.
+    pub(super) unlit: Arc<Unlit>,
     /// Whether there was time for all steps of the pilot.
     pub(super) is_whole: bool,
     /// Whether elements for a higher accuracy would be about the same, since their number is at its limits.
@@ -32,6 +43,7 @@ pub(super) struct Plan<'s> {
 }
 
 /// The elements, and the interpolation of light over them.
+#[derive(Serialize, Deserialize)]
 pub(super) struct PlannedMesh {
     pub(super) elements: Elements,
     /// The elements of indirect light, by node, as triangles of the scene.
@@ -57,6 +69,7 @@ pub(super) struct PlannedMesh {
 }
 
 /// The light known to the pilot.
+#[derive(Serialize, Deserialize)]
 pub(super) struct PlannedLight {
     /// Direct light at the vertices, lx; exact if the lighting is.
     pub(super) direct: Vec<Rgb>,
@@ -76,6 +89,7 @@ pub(super) struct PlannedLight {
 }
 
 /// The expected interpolation errors.
+#[derive(Serialize, Deserialize)]
 pub(super) struct PlannedErrors {
     /// The errors of the elements of indirect light.
     pub(super) of_elements: Vec<LeafError>,
@@ -92,6 +106,7 @@ pub(super) struct PlannedErrors {
 }
 
 /// The noise measured by trials with few rays and particles.
+#[derive(Serialize, Deserialize)]
 pub(super) struct PlannedNoise {
     /// The noise of gathered light.
     pub(super) trial: RayTrial,
@@ -99,6 +114,81 @@ pub(super) struct PlannedNoise {
     pub(super) caustic_noise: CausticNoise,
     /// The distribution of particles for caustics, if they are aimed.
     pub(super) aim: Option<Aim>,
+}
+
+impl<'s> Deref for Plan<'s> {
+    type Target = PilotResult;
+
+    fn deref(&self) -> &PilotResult {
+        &self.result
+    }
+}
+
+impl fmt::Debug for PilotResult {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        to.debug_struct("PilotResult").field("receivers", &self.receivers()).finish_non_exhaustive()
+    }
+}
+
+impl PilotResult {
+    /// The number of vertices of the elements.
+    pub fn receivers(&self) -> usize {
+        self.mesh.elements.vertices().len()
+    }
+
+    /// Whether the result can be that of a pilot of this scene: all arrays have their lengths, and all indices point to
+    /// something. Results from a file may hold anything.
+    pub(super) fn is_of(&self, scene: &Scene) -> bool {
+        let Self { mesh, light, errors, tried, .. } = self;
+        let PlannedMesh { elements, subdivision, indirect_vertices: indirect, level, .. } = &**mesh;
+        let (triangles, indirect) = (scene.triangle_count(), *indirect);
+        let (all, nodes) = (elements.vertices().len(), elements.node_count());
+        let coarse = subdivision.node_count();
+        let is_side = |(triangle, roots): (u32, &[Option<u32>; 2])| {
+            [false, true].map(|back| carries_map(scene, triangle, back))
+                == roots.map(|r| r.is_some())
+        };
+        let are_sides = |roots: &[[Option<u32>; 2]]| {
+            roots.len() == triangles as usize && (0..).zip(roots).all(is_side)
+        };
+        let are_indices =
+            |indices: &[u32], below: usize| indices.iter().all(|&k| (k as usize) < below);
+        let are_known = |values: &[Rgb], count: usize| {
+            values.len() == count
+                && values.iter().all(|value| value.0.iter().all(|lx| lx.is_finite()))
+        };
+        let known = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        // The elements of indirect light are the first ones.
+        let is_first = |node: u32| {
+            let (fine, (coarse_node, _)) = (elements.node(node), subdivision.node(node));
+            let split = fine.split.filter(|split| (split.first_child as usize) < coarse);
+            (fine.vertices, split) == (coarse_node.vertices, coarse_node.split)
+        };
+        are_sides(elements.roots())
+            && are_sides(subdivision.roots())
+            && (*level as usize, subdivision.vertex_count()) == (coarse, indirect)
+            && coarse <= nodes
+            && (0..coarse as u32).all(is_first)
+            && indirect <= all
+            && [mesh.standings.len(), mesh.gatherers.len()] == [all; 2]
+            && mesh.gatherers.iter().all(|of| of.surface.triangle < triangles)
+            && mesh.gathering_for_bare.is_sorted_by(|a, b| a < b)
+            && are_indices(&mesh.gathering_for_bare, all)
+            && mesh.carriers.are_of(indirect)
+            && mesh.cuts.are_of(nodes, all)
+            && mesh.fit.is_of(indirect)
+            && are_known(&light.direct, all)
+            && are_known(&light.guess, indirect)
+            && light.direct_variance.len() == all
+            && known(&light.direct_variance)
+            && known(&[light.reference_lx, light.mean_reflectance, errors.interpolation])
+            && light.bright.as_ref().is_none_or(|bright| bright.are_of(triangles))
+            && errors.of_elements.iter().all(|of| (of.node as usize) < coarse && of.area_m2 >= 0.0)
+            && errors.parts.are_of(nodes, indirect)
+            && tried.aim.as_ref().is_none_or(|aim| {
+                Emission::new(scene).is_some_and(|emission| aim.is_of(scene, &emission))
+            })
+    }
 }
 
 impl Plan<'_> {
@@ -131,7 +221,7 @@ impl Plan<'_> {
     }
 
     /// The trust of readers unless check points show otherwise.
-    pub(super) const fn trust(&self) -> Trust {
+    pub(super) fn trust(&self) -> Trust {
         self.errors.trusts.foreseen()
     }
 

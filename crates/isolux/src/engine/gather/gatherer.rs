@@ -15,9 +15,10 @@ use crate::map::Standing;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point};
+use serde::{Deserialize, Serialize};
 
 /// A place that gathers.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Gatherer {
     /// The point where rays start.
     pub(crate) origin: Point,

@@ -7,7 +7,7 @@
 //! count that the spot sees, except those that something stands on.
 
 use super::gatherer::Gatherer;
-use crate::elements::Elements;
+use crate::elements::{Elements, table_in_order};
 use crate::engine::light::Lighting;
 use crate::engine::occlusion::{Footprints, nearby};
 use crate::engine::ray::{Dice, PathEnd, SurfacePoint, follow};
@@ -16,6 +16,7 @@ use crate::scene::{Finish, Scene};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Ray};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// The most rays that look for light. A place that sees it in less than a tenth of its hemisphere is still found with
@@ -45,8 +46,10 @@ pub(crate) type Element = (u32, [[u64; 3]; 3]);
 
 /// The places of each element from which no lit surface was seen. Vertices may be found to be open later, but this
 /// stays true, also for later pilots of a run.
-#[derive(Debug, Default)]
-pub(crate) struct Unlit(pub(crate) HashMap<Element, u16>);
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Unlit(
+    #[serde(serialize_with = "table_in_order")] pub(crate) HashMap<Element, u16>,
+);
 
 /// Whether a place is cut off from the light of its element.
 #[derive(Clone, Copy, Debug, PartialEq)]

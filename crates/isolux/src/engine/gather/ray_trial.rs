@@ -5,6 +5,7 @@ use crate::engine::ray::{Accumulator, Sample, Stand};
 use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The number of receivers of a trial. With 256 to 511, trials took 9 ms in CUBE and 14 ms in SPHERE at 1 %
 /// (decision 25).
@@ -78,7 +79,7 @@ pub(crate) fn variances_lx2(
 }
 
 /// The result of a trial: the noise of one net of `rays` rays, root mean square over the surface, lx.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct RayTrial {
     noise_lx: f64,
     rays: u32,

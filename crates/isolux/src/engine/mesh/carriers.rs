@@ -14,6 +14,7 @@ use super::coarsening::{Coarsening, Link};
 use crate::elements::Subdivision;
 use crate::units::Rgb;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The root mean square of the linear interpolation error over an element, as a share of the detail of its newest
 /// vertex. For a parabola across the edge the error at the middle of the next edge is a quarter of the detail, and
@@ -22,7 +23,7 @@ use rayon::prelude::*;
 pub(crate) const ERROR_OF_DETAIL: f64 = 0.3;
 
 /// The vertices that carry light.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Carriers {
     /// The link of each vertex of the first mesh; vertices without a link always carry light.
     links: Vec<Option<Link>>,
@@ -36,7 +37,7 @@ pub(crate) struct Carriers {
 
 /// Vertices that wait, that is, do not carry light, and their parents in one array, since these are read again and
 /// again.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Waiting {
     /// The vertices, coarse to fine.
     vertices: Vec<u32>,
@@ -46,6 +47,11 @@ pub(crate) struct Waiting {
     parents: Vec<(u32, f64)>,
     /// The end of the parents of each vertex.
     ends: Vec<usize>,
+}
+
+/// Whether these are the ends of `count` successive ranges of a list.
+pub(super) fn are_ends(ends: &[usize], count: usize, length: usize) -> bool {
+    ends.len() == count && ends.is_sorted() && ends.last().is_none_or(|&last| last == length)
 }
 
 /// The estimate of the error at a vertex that does not carry light.
@@ -175,6 +181,17 @@ impl Carriers {
             start = end;
         }
         waiting
+    }
+
+    /// Whether the carriers are some of so many vertices.
+    pub(crate) fn are_of(&self, vertices: usize) -> bool {
+        let first = self.links.len();
+        let is_parent = |&(v, weight): &(u32, f64)| (v as usize) < first && weight.is_finite();
+        first <= vertices
+            && self.active.len() == first
+            && are_ends(&self.ends, self.ends.len(), self.order.len())
+            && self.order.iter().all(|&v| (v as usize) < first)
+            && self.links.iter().flatten().flat_map(|link| &link.parents).all(is_parent)
     }
 
     /// Interpolates the values of vertices that wait.

@@ -6,6 +6,7 @@ use super::NO_INDEX;
 use crate::elements::{FewNumbers, Subdivision, Vertex};
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// The largest number of levels, whose spacings differ by factors of two.
@@ -39,7 +40,7 @@ const TRIED_LINES: usize = 4;
 const CORNER_COS: f64 = -0.9;
 
 /// The interpolation of a vertex that need not carry light.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Link {
     /// The vertices that it is interpolated from, with weights.
     pub(crate) parents: Vec<(u32, f64)>,

@@ -8,6 +8,7 @@ use super::MIN_TASK_LENGTH;
 use super::carriers::{Carriers, ERROR_OF_DETAIL, Told};
 use crate::elements::{Elements, Subdivision};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The interpolation error of an element, root mean square, as a share of the error in its middle. A quadratic
 /// function has a mean error of a twenty-fourth of its three second differences along the edges, of an eighteenth in
@@ -19,7 +20,7 @@ const ERROR_OF_MIDDLE: f64 = 0.9;
 const RECENT_EDGE_RATIO: f64 = 2.9;
 
 /// The error expected of an element.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct LeafError {
     pub(crate) node: u32,
     pub(crate) area_m2: f64,

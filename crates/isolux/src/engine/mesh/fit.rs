@@ -18,11 +18,13 @@
 use super::MIN_TASK_LENGTH;
 use super::bounded::{Bounded, Range};
 use super::carriers::Carriers;
+use super::carriers::are_ends;
 use crate::ablation::without;
 use crate::elements::{Element, Elements};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The largest sum of the magnitudes of weights of second differences. Beyond it elements are slivers.
 const MOST_WEIGHTS_SUM: f64 = 4.0;
@@ -39,7 +41,7 @@ const TASK_VERTICES: usize = 256;
 type Form = Vec<(u32, f64)>;
 
 /// The shifts of vertices, as linear combinations of all values.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Fit {
     entries: Form,
     /// The end of the entries of each vertex.
@@ -105,6 +107,12 @@ impl Fit {
             fit.ends.extend(part.ends.into_iter().map(|end| before + end));
         }
         fit
+    }
+
+    /// Whether the fit is one of so many vertices.
+    pub(crate) fn is_of(&self, vertices: usize) -> bool {
+        are_ends(&self.ends, vertices, self.entries.len())
+            && self.entries.iter().all(|&(v, weight)| (v as usize) < vertices && weight.is_finite())
     }
 
     /// The values of best fit from those at the vertices, each within the range of the values that it is fitted to.

@@ -8,6 +8,7 @@
 use super::detail::LeafError;
 use crate::elements::Elements;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// The errors of trusted elements, as shares of the expected error, to try where more error is found than expected.
 /// With the least, readers of the hall gather on four fifths of its surface, with all of it on three fifths.
@@ -42,7 +43,7 @@ impl Trust {
 
 /// Limits on the error of trusted elements, lx, the greatest first: the expected one, then those that reduce the
 /// error of trusted elements to shares of that.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct TrustLevels([f64; 1 + ERROR_SHARES.len()]);
 
 impl TrustLevels {

@@ -85,6 +85,8 @@ pub(crate) struct Hybrid<'p, 's> {
     key: Key,
     /// The increments made ahead, in order.
     ahead: VecDeque<Increment>,
+    /// The number of the increment to end before.
+    end: u64,
 }
 
 /// The size of an increment, and the accuracy goal that it serves.
@@ -164,6 +166,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             goal,
             key,
             ahead,
+            end: u64::MAX,
         }
     }
 
@@ -214,7 +217,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         if self.ahead.is_empty() {
             let next = (index + 1).next_multiple_of(FEWEST_TO_MISS);
             let is_ahead = next <= BELIEVED_INCREMENTS && !without("increments-ahead");
-            let until = if is_ahead { next } else { index + 1 };
+            let until = if is_ahead { next.min(self.end) } else { index + 1 };
             let rows = self.rows.iter().chain(&self.fresh_rows);
             let rays = rows.map(|row| u64::from(row.rays)).sum::<u64>() + u64::from(self.particles);
             let count = (until - index).min((RAYS_AHEAD / rays.max(1)).max(1)) as usize;
@@ -223,6 +226,12 @@ impl<'p, 's> Hybrid<'p, 's> {
             self.ahead.extend(made.into_iter().map_while(|increment| increment));
         }
         self.ahead.pop_front()
+    }
+
+    /// Begins anew at some increment, to end before another.
+    pub(crate) fn begin_at(&mut self, end: u64) {
+        self.ahead.clear();
+        self.end = end;
     }
 
     /// The number of increments made ahead.

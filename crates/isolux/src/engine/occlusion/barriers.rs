@@ -8,12 +8,13 @@
 use super::footprints::{END_EDGE_SHARE, LOW, stands_on};
 use super::nearby::NEAR;
 use crate::ablation::without;
-use crate::elements::{Elements, FewNumbers, Origin, Subdivision};
+use crate::elements::{Elements, FewNumbers, Origin, Subdivision, set_in_order, table_in_order};
 use crate::engine::ray::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point, Ray};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 
 /// The difference of light between the corners of an element, as a share of the greatest, above which it is uneven.
@@ -26,17 +27,20 @@ const DARK_LIGHT_SHARE: f64 = 0.01;
 const JUST_BEHIND_EDGE_SHARE: f64 = 0.25;
 
 /// The barriers across elements.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Barriers {
+    #[serde(serialize_with = "table_in_order")]
     of_nodes: HashMap<u32, Barrier, FewNumbers>,
     /// The elements by their corners.
+    #[serde(serialize_with = "set_in_order")]
     corners: HashSet<[u32; 3], FewNumbers>,
     /// The end of its edge that a vertex made by bisecting these elements sees, where it sees only one.
+    #[serde(serialize_with = "table_in_order")]
     ends: HashMap<u32, u32, FewNumbers>,
 }
 
 /// A line that cuts one corner off an element.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Barrier {
     corner: usize,
     /// The inverse of the position of the line on each edge from that corner, as a share of the edge: the edge to the
@@ -89,6 +93,14 @@ impl Barriers {
             });
         }
         cuts
+    }
+
+    /// Whether the barriers are across some of so many nodes, over so many vertices.
+    pub(crate) fn are_of(&self, nodes: usize, vertices: usize) -> bool {
+        let is_vertex = |v: &u32| (*v as usize) < vertices;
+        self.of_nodes.iter().all(|(&node, of)| (node as usize) < nodes && of.corner < 3)
+            && self.corners.iter().flatten().all(is_vertex)
+            && self.ends.iter().flat_map(|(vertex, end)| [vertex, end]).all(is_vertex)
     }
 
     /// The barriers across the elements of a map.

@@ -12,6 +12,7 @@ use crate::engine::ray::{Dice, SurfacePoint};
 use crate::scene::{Body, Finish, Scene};
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// One particle in this many is not aimed. No aimed particle so carries more than eight times its share,
 /// whatever was expected wrongly (decision 27).
@@ -31,6 +32,7 @@ const UNLEARNED_SHARE: f64 = 0.1;
 const OFF_TARGET_SHARE: f64 = 1e-4;
 
 /// The distribution of aimed particles.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct Aim {
     groups: Vec<Group>,
     /// The group of every triangle of the scene; `None` if it is not specular.
@@ -41,6 +43,7 @@ pub(crate) struct Aim {
 }
 
 /// Specular triangles close to each other.
+#[derive(Serialize, Deserialize)]
 struct Group {
     triangles: Vec<u32>,
     /// The running sums of their areas, m2.
@@ -83,6 +86,22 @@ impl Aim {
         let pairs = 0..groups.len() * luminaires;
         let chances: Vec<f64> = pairs.into_par_iter().with_min_len(256).map(chance).collect();
         Some(Self { groups, group_of, luminaires, sums: running_sums(&chances) })
+    }
+
+    /// Whether the groups are triangles of a scene, and the luminaires those of its emission.
+    pub(crate) fn is_of(&self, scene: &Scene, emission: &Emission) -> bool {
+        let triangles = scene.triangle_count();
+        let is_group = |group: &Group| {
+            !group.triangles.is_empty()
+                && group.sums_m2.len() == group.triangles.len()
+                && group.triangles.iter().all(|&t| t < triangles)
+        };
+        !self.groups.is_empty()
+            && self.luminaires == emission.count()
+            && self.sums.len() == self.groups.len() * self.luminaires
+            && self.group_of.len() == triangles as usize
+            && self.group_of.iter().flatten().all(|&g| (g as usize) < self.groups.len())
+            && self.groups.iter().all(is_group)
     }
 
     pub(crate) const fn groups(&self) -> usize {

@@ -11,6 +11,7 @@ use crate::engine::mesh::NO_INDEX;
 use crate::engine::ray::{Accumulator, Noise, Sample};
 use crate::map::Standing;
 use crate::units::Rgb;
+use serde::{Deserialize, Serialize};
 
 /// The number of parts from one division of an element, at the midpoints of its edges.
 const QUARTERS: usize = 4;
@@ -23,14 +24,14 @@ pub(crate) const PARTS: usize = QUARTERS * QUARTERS;
 const WITHIN_PARTS_FACTOR: f64 = 1.25;
 
 /// The checked elements.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub(crate) struct ElementParts {
     elements: Vec<Checked>,
     /// The index in `elements` of each node.
     of_node: Vec<u32>,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Checked {
     corners: [u32; 3],
     area_m2: f64,
@@ -54,6 +55,14 @@ impl ElementParts {
             Checked { corners, area_m2: subdivision.triangle(node).area() }
         };
         Self { elements: nodes.iter().enumerate().map(checked).collect(), of_node }
+    }
+
+    /// Whether the checked elements are some of so many nodes, over so many vertices.
+    pub(crate) fn are_of(&self, nodes: usize, vertices: usize) -> bool {
+        let is_checked = |&k: &u32| k == NO_INDEX || (k as usize) < self.elements.len();
+        self.of_node.len() <= nodes
+            && self.of_node.iter().all(is_checked)
+            && self.elements.iter().flat_map(|e| e.corners).all(|v| (v as usize) < vertices)
     }
 
     /// The number of parts.

@@ -9,6 +9,7 @@ use crate::sampling::{Key, Sequence};
 use crate::scene::{Body, Scene};
 use crate::units::Rgb;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
 /// The largest number of particles per vertex and increment.
@@ -44,7 +45,7 @@ pub(crate) fn particles(vertices: usize) -> u32 {
 }
 
 /// The noise of caustics.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct CausticNoise {
     /// The mean square over the surface if one particle carried all light, lx2. It falls with the number of
     /// particles.

@@ -9,8 +9,11 @@ use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{Gatherer, RayTrial, areas_m2};
 use crate::engine::mesh::Fit;
 use crate::engine::occlusion::{Barriers, Side};
-use crate::engine::plan::{Plan, PlannedErrors, PlannedLight, PlannedMesh, PlannedNoise};
+use crate::engine::plan::{
+    PilotResult, Plan, PlannedErrors, PlannedLight, PlannedMesh, PlannedNoise,
+};
 use crate::map::Standing;
+use std::sync::Arc;
 
 impl<'s> Pilot<'s> {
     /// Refines further for caustics and direct light, and assembles the plan.
@@ -82,22 +85,23 @@ impl<'s> Pilot<'s> {
             reference_lx,
             mean_reflectance: self.mesh.reflectances.of_all(self.scene, &mesh.subdivision),
         };
-        Plan {
-            scene: self.scene,
-            lighting: self.lighting,
-            mesh,
-            light,
-            errors,
-            tried: PlannedNoise {
-                trial: self.tried.trial.unwrap_or(RayTrial::usual(reference_lx)),
-                caustic_noise: self.tried.caustic_noise,
-                aim: self.tried.aim,
-            },
+        let tried = PlannedNoise {
+            trial: self.tried.trial.unwrap_or(RayTrial::usual(reference_lx)),
+            caustic_noise: self.tried.caustic_noise,
+            aim: self.tried.aim,
+        };
+        let result = PilotResult {
+            mesh: Arc::new(mesh),
+            light: Arc::new(light),
+            errors: Arc::new(errors),
+            tried: Arc::new(tried),
+            unlit: Arc::new(self.near.unlit),
             is_whole: self.is_whole,
             is_finest: self.mesh.is_full
                 && self.direct.excess.is_some_and(|(_, excess)| excess > 1.0),
             rays: self.traced,
-        }
+        };
+        Plan { scene: self.scene, lighting: self.lighting, result }
     }
 
     /// Fixes the elements for indirect light and returns them.

@@ -32,21 +32,19 @@ pub(super) use forecast::{Costs, EachIncrement, Outlook};
 pub(super) use forecast::{GoOn, Left, Round};
 pub(super) use look::PilotRequest;
 use state::Pilot;
-use std::mem;
 
-/// Runs the pilot to its end and returns the plan. `go_on` is asked after every round. Places found unlit are
-/// added to `unlit`, which holds those of earlier pilots of the run.
+/// Runs the pilot to its end and returns the plan. `go_on` is asked after every round. Earlier pilots of the run have
+/// found the places `unlit`.
 pub(super) fn pilot<'s>(
     scene: &'s Scene,
     lighting: &'s Lighting<'s>,
     request: &PilotRequest,
-    unlit: &mut Unlit,
+    unlit: &Unlit,
     go_on: &mut GoOn<'_>,
 ) -> Plan<'s> {
     let mut pilot = Pilot::new(scene, lighting, request);
-    pilot.near.unlit = mem::take(unlit);
+    pilot.near.unlit = unlit.clone();
     let look = pilot.elements_for_indirect_light(request, go_on);
-    *unlit = mem::take(&mut pilot.near.unlit);
     pilot.finish(look, request, go_on)
 }
 

@@ -11,6 +11,7 @@
 //! there still reach five hundred times the reference.
 
 use crate::units::Rgb;
+use std::mem;
 
 /// Units of the scene's reference illuminance.
 pub(crate) const UNITS_OF_REFERENCE: f64 = (1u64 << 24) as f64;
@@ -57,6 +58,23 @@ pub struct Sums {
     /// Sums of the squares of these three.
     pub squares: [i128; 3],
 }
+
+impl Sums {
+    /// The sums over the increments of both. Sums from a file may hold any value; those of a run do not saturate.
+    pub fn plus(mut self, other: &Self) -> Self {
+        let add = |into: &mut [i64], from: &[i64]| {
+            into.iter_mut().zip(from).for_each(|(a, b)| *a = a.saturating_add(*b));
+        };
+        add(&mut self.values, &other.values);
+        add(&mut self.totals, &other.totals);
+        self.squares.iter_mut().zip(other.squares).for_each(|(a, b)| *a = a.saturating_add(b));
+        self
+    }
+}
+
+/// The sums to merge belong to another number of receivers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct OtherLength;
 
 /// Sums of many receivers over increments.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,6 +167,23 @@ impl Accumulator {
             }
         }
         self.increments += 1;
+    }
+
+    /// Adds the sums of other increments.
+    pub(crate) fn merge(&mut self, sums: &[Sums], increments: u64) -> Result<(), OtherLength> {
+        if self.sums.len() != sums.len() {
+            return Err(OtherLength);
+        }
+        self.sums.iter_mut().zip(sums).for_each(|(into, from)| *into = into.plus(from));
+        self.increments += increments;
+        Ok(())
+    }
+
+    /// Returns the sums and goes on without increments.
+    pub(crate) fn clear(&mut self) -> Vec<Sums> {
+        self.increments = 0;
+        let none = vec![Sums::default(); self.sums.len()];
+        mem::replace(&mut self.sums, none)
     }
 
     /// Sum of the three channels from index `first` on in [`Sums::values`] of a receiver, lx.

@@ -4,13 +4,14 @@ use crate::elements::{PlaceOnSide, Subdivision};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
+use serde::{Deserialize, Serialize};
 
 /// The least cosine between the normals of triangles in one plane. The difference to one is for the rounding of
 /// `f32` coordinates.
 pub(crate) const COPLANAR_COS: f64 = 1.0 - 1e-6;
 
 /// A place on one side of a triangle; both normals point to that side.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct SurfacePoint {
     pub(crate) triangle: u32,
     pub(crate) back: bool,

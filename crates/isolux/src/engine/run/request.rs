@@ -2,6 +2,7 @@
 
 use crate::engine::method::{IrradianceCache, RadiositySettings};
 use crate::map::{Accuracy, Method};
+use std::ops::Range;
 use std::time::Duration;
 
 /// The request for a map: method, goals and limits.
@@ -168,4 +169,21 @@ pub enum SolveError {
     /// The saved state belongs to another run.
     #[error("the saved run differs in {0}; solve without resuming, or ask for the same again")]
     OtherRun(&'static str),
+    /// The method has no parts.
+    #[error(
+        "each increment of radiosity continues the one before it: use the method hybrid, cache or forward"
+    )]
+    Indivisible,
+    /// Samples that a run of `cache` starts from are not part of its identity.
+    #[error("runs that start from a cache of samples have no parts: solve without one")]
+    StartsFromCache,
+    /// A part of the run has increments, but the first ones are missing or there is a gap.
+    #[error("increments {}..{} are missing", .0.start, .0.end)]
+    Missing(Range<u64>),
+    /// Increments made elsewhere cannot be had.
+    #[error("{0}")]
+    Elsewhere(String),
+    /// The saved state or pilot contradicts itself or the scene.
+    #[error("{0} does not fit the scene: it is damaged, or made by something else")]
+    Unsound(&'static str),
 }

@@ -2,12 +2,19 @@
 
 use super::request::{SolveError, SolveRequest};
 use crate::engine::method::RadiositySettings;
+use crate::engine::plan::PilotResult;
 use crate::engine::ray::{Accumulator, Sums};
 use crate::map::Method;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
-/// The sums of a run so far. Elements are not part of it, since the pilot makes the same ones again.
+/// The number of stages that halve the error which elements are made for.
+pub(crate) const STAGES_TO_HALF: u32 = 4;
+/// The largest number of stages, after which a run keeps what it has. The last one has elements for an eighth of the
+/// accuracy goal.
+pub(crate) const MOST_STAGES: u32 = 3 * STAGES_TO_HALF + 1;
+
+/// The sums of a run so far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunState {
     /// The identity of the run.
@@ -26,6 +33,37 @@ pub struct RunState {
     pub checks: Vec<Sums>,
     /// The sum of the light on paths given up: one entry, or none where there are no increments.
     pub given_up: Vec<Sums>,
+    /// The pilot of the stage; without it, a run makes the same one again.
+    pub pilot: Option<PilotState>,
+}
+
+/// The result of a pilot, with the run that it belongs to.
+#[derive(Clone, Debug)]
+pub struct PilotState {
+    /// The identity of the run.
+    pub identity: RunIdentity,
+    /// The number of the mesh, counted from one.
+    pub stage: u32,
+    /// The number of rays traced before the first increment on this mesh.
+    pub rays: u64,
+    /// The elements, the light known on them, and its noise.
+    pub result: PilotResult,
+}
+
+impl PilotState {
+    /// Compares the result with the scene.
+    pub(crate) fn check(&self, scene: &Scene) -> Result<(), SolveError> {
+        let is_stage = (1..=MOST_STAGES).contains(&self.stage);
+        let is_sound = is_stage && self.result.is_of(scene);
+        if is_sound { Ok(()) } else { Err(SolveError::Unsound("the saved pilot")) }
+    }
+}
+
+impl PartialEq for PilotState {
+    /// Pilots of one run and one stage are the same.
+    fn eq(&self, other: &Self) -> bool {
+        (&self.identity, self.stage, self.rays) == (&other.identity, other.stage, other.rays)
+    }
 }
 
 /// The results of the audits of a run.
@@ -99,7 +137,12 @@ impl RunIdentity {
 
     /// Compares the identity with that of a saved run. The error names the first difference.
     pub(crate) fn check(&self, saved: &Self) -> Result<(), SolveError> {
-        let differs = [
+        self.difference(saved).map_or(Ok(()), |what| Err(SolveError::OtherRun(what)))
+    }
+
+    /// The first difference from another identity.
+    pub(crate) fn difference(&self, saved: &Self) -> Option<&'static str> {
+        let same = [
             ("the scene", self.scene_hash == saved.scene_hash),
             ("the version of isolux", self.version == saved.version),
             ("the build of isolux", self.build == saved.build),
@@ -111,10 +154,7 @@ impl RunIdentity {
             ("the limits of radiosity", self.radiosity == saved.radiosity),
             ("whether it is audited", self.audit == saved.audit),
         ];
-        match differs.iter().find(|(_, same)| !same) {
-            Some((what, _)) => Err(SolveError::OtherRun(what)),
-            None => Ok(()),
-        }
+        same.iter().find(|(_, same)| !same).map(|(what, _)| *what)
     }
 }
 

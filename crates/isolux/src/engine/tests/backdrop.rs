@@ -82,7 +82,7 @@ fn lit_room() -> Scene {
 fn walls_take_noise_off_and_leave_the_light() {
     let scene = lit_room();
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let gathering = Gathering::of(&plan, &plan.light.direct);
     let judged = plan.mesh.gatherers.iter().filter(|of| of.behind.is_some()).step_by(61);
     let judged: Vec<Gatherer> = judged.map(|of| of.with_rays(16)).collect();
@@ -119,7 +119,7 @@ fn light_settles_among_carriers_as_it_does_among_all() {
     let lamps = vec![isotropic([2.0, 1.5, 1.6], 100.0)];
     let scene = scene(shapes, vec![painted(Rgb::grey(0.5))], lamps);
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let vertices = plan.light.guess.len();
     assert!(2 * plan.mesh.waiting.count() >= vertices, "few carry light");
     let gathering = Gathering::of(&plan, &plan.light.direct);

@@ -9,6 +9,7 @@ use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::ray::{Deadline, ProbePoint};
 use crate::engine::read::ExactSettings;
+use std::sync::Arc;
 
 /// A room with shelves before a wall, which take more elements than there may be.
 fn room_with_shelves() -> Scene {
@@ -25,7 +26,7 @@ fn room_with_shelves() -> Scene {
 fn plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>, mesh_target: f64) -> Plan<'s> {
     let request =
         PilotRequest { mesh_target, most_for_indirect_light: Some(300), ..usual_request() };
-    pilot(scene, lighting, &request, &mut Unlit::default(), &mut |_| true)
+    pilot(scene, lighting, &request, &Unlit::default(), &mut |_| true)
 }
 
 #[test]
@@ -72,7 +73,7 @@ fn what_gathers_for_the_bare_map_is_read_by_no_ray() {
     let lighting = Lighting::new(&scene);
     let with = plan(&scene, &lighting, 0.02);
     let mut without = plan(&scene, &lighting, 0.02);
-    without.mesh.gathering_for_bare.clear();
+    Arc::get_mut(&mut without.result.mesh).unwrap().gathering_for_bare.clear();
     let made = |plan: &Plan| {
         let size = IncrementSize { rays: 32.0, halvings: 0, particles: 0, goal: 0.02 };
         let mut hybrid = Hybrid::new(plan, &[], size, 1 << 10, 1);

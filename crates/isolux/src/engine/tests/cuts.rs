@@ -31,7 +31,7 @@ fn parted(sheet_x: f64, height: f64, sheet: Material) -> Scene {
 /// Of places of the floor within 10 cm of the sheet, how many read vertices on or beyond it.
 fn reading_beyond(scene: &Scene, sheet_x: f64) -> usize {
     let lighting = Lighting::new(scene);
-    let plan = pilot(scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let key = Key::new(9);
     let reads_beyond = |k: &u64| {
         let [x, y] = [0, 1].map(|n| key.with(2 * k + n).uniform());

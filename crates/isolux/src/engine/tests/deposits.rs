@@ -80,7 +80,7 @@ fn flux_is_kept() {
 /// Mean of an increment of the forward engine, by vertex.
 fn forward(scene: &Scene, request: &PilotRequest) -> (Vec<f64>, Vec<f64>) {
     let lighting = Lighting::new(scene);
-    let plan = pilot(scene, &lighting, request, &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(scene, &lighting, request, &Unlit::default(), &mut |_| true);
     let mut lacking = Accumulator::new(plan.errors.parts.count(), plan.light.reference_lx);
     let engine = Forward::new(&plan, Emission::new(scene).unwrap(), 0.05, 1);
     let mut sums = Accumulator::new(plan.mesh.elements.vertices().len(), plan.light.reference_lx);

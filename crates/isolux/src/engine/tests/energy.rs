@@ -29,7 +29,7 @@ fn a_closed_room_has_all_that_energy_allows() {
 fn more_than_that_is_found_and_what_is_no_number_too() {
     let scene = room(0.5);
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let allowed = allowed_lx(&scene, plan.area_m2());
     let energy = Allowed::of(&plan);
     let excess = |lx: &dyn Fn(usize) -> f64| energy.excess_lx(lx);

@@ -31,7 +31,7 @@ pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Pl
         least_edge_m: None,
         deadline: Deadline::NEVER,
     };
-    pilot(scene, lighting, &request, &mut Unlit::default(), &mut |_| true)
+    pilot(scene, lighting, &request, &Unlit::default(), &mut |_| true)
 }
 
 /// A number about zero with variance one, close to normal: the sum of twelve.

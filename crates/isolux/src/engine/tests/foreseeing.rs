@@ -159,8 +159,7 @@ fn a_step_that_takes_too_long_is_told_before_it_is_begun() {
     let scene = furnished();
     let lighting = Lighting::new(&scene);
     let request = PilotRequest { mesh_target: 0.005, ..usual_request() };
-    let with =
-        |go_on: &mut GoOn<'_>| pilot(&scene, &lighting, &request, &mut Unlit::default(), go_on);
+    let with = |go_on: &mut GoOn<'_>| pilot(&scene, &lighting, &request, &Unlit::default(), go_on);
     let mut longest = (0.0, 0);
     let whole = with(&mut |round: &Round| {
         if round.step_s > longest.0 {
@@ -215,7 +214,7 @@ fn a_first_survey_without_time_takes_a_ray_of_each_place() {
     let lighting = Lighting::new(&scene);
     let with = |deadline: Deadline| {
         let request = PilotRequest { deadline, ..usual_request() };
-        pilot(&scene, &lighting, &request, &mut Unlit::default(), &mut |_| false)
+        pilot(&scene, &lighting, &request, &Unlit::default(), &mut |_| false)
     };
     let (whole, cut) = (with(Deadline::NEVER), with(Deadline(Some(Instant::now()))));
     assert!(cut.rays < whole.rays, "{} of {}", cut.rays, whole.rays);

@@ -26,7 +26,7 @@ fn room(below_m: f64) -> Scene {
 fn vertices_tell_of_light_that_lands_on_a_hand_s_breadth() {
     let scene = room(0.005);
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let vertices = plan.mesh.elements.vertices().iter().zip(&plan.light.direct);
     let told_lm: f64 = vertices.map(|(vertex, lx)| vertex.area_m2 * lx.luminance()).sum();
     // All of it lands. Linear elements tell too much of a peak, by no more than the stored map may err.
@@ -50,7 +50,7 @@ fn vertices_tell_of_what_many_lamps_light_close_by() {
     let scene = scene(inward_box(ROOM_M, 0), vec![painted(Rgb::grey(REFLECTANCE))], lamps);
     let lighting = Lighting::new(&scene);
     assert!(lighting.are_countless());
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let vertices = plan.mesh.elements.vertices().iter().zip(&plan.light.direct);
     let told_lm: f64 = vertices.map(|(vertex, lx)| vertex.area_m2 * lx.luminance()).sum();
     // As for one lamp.
@@ -119,7 +119,7 @@ fn a_floor_that_no_particle_finds_below_a_large_sky_is_right_as_it_is() {
     let materials = vec![painted(Rgb::grey(REFLECTANCE)), glowing(LUMINANCE_CD_M2)];
     let scene = scene(shapes, materials, vec![]);
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     assert!(plan.mesh.elements.vertices().len() < 3000, "{}", plan.mesh.elements.vertices().len());
     let lit = |lx: &Rgb| (lx.luminance() / (PI * LUMINANCE_CD_M2) - 1.0).abs() < 0.02;
     assert!(plan.light.direct.iter().all(lit), "{:?}", plan.light.direct);

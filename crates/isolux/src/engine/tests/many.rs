@@ -279,7 +279,7 @@ fn noise_of_direct_light_is_part_of_the_accuracy() {
     let floor = vec![rectangle([-9.0, -9.0, 0.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0)];
     let scene = scene(floor, vec![painted(Rgb::grey(0.5))], lamps(700));
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let checks = check_points::draw(&plan, 0, Key::new(2));
     let noise = |accuracy: f64| {
         let noise_lx2 = check_points::direct(&plan, &checks, accuracy, Key::new(3)).noise_lx2;

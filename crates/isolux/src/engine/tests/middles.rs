@@ -24,7 +24,7 @@ fn room() -> Scene {
 fn a_panel_close_below_the_ceiling_is_seen_to_light_it() {
     let scene = room();
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     // Between two planes light goes up and down without end.
     let direct = std::f64::consts::PI * RADIANCE;
     let expected = direct / (1.0 - REFLECTANCE * REFLECTANCE) - direct;
@@ -51,7 +51,7 @@ fn the_upper_side_of_a_lamp_below_a_ceiling_is_darker_at_its_rim() {
     let glow = Finish { luminance_cd_m2: Rgb::grey(RADIANCE), ..Finish::diffuse(grey) };
     let scene = scene(shapes, vec![painted(grey), Material::two_sided("lamp", glow)], vec![]);
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let read_lx = |x: f64| {
         let surface = front_at(&scene, Point::new(x, 1.5, 2.47));
         plan.read(plan.mesh.level, &plan.light.guess, &surface).luminance()

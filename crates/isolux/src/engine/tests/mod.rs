@@ -41,6 +41,7 @@ mod openings;
 mod parts;
 mod paths;
 mod reflectance;
+mod run_parts;
 mod sealed;
 mod sharing;
 mod sight;

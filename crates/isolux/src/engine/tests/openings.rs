@@ -173,7 +173,7 @@ fn errors_count_for_the_dim_room_that_sees_them() {
     let most_on = |material: u32, reflectance: f64| {
         let scene = room_behind_slats(reflectance);
         let lighting = Lighting::new(&scene);
-        let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+        let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
         let material_of = |node: u32| {
             let (_, origin) = plan.mesh.subdivision.node(node);
             scene.material_index(origin.triangle)
@@ -192,7 +192,7 @@ fn noise_that_readings_have_in_common_is_told_at_vertices() {
     const INCREMENTS: u64 = 48;
     let scene = room_behind_slats(0.6);
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let size = IncrementSize { rays: 64.0, halvings: 0, particles: 0, goal: 0.02 };
     let mut hybrid = Hybrid::new(&plan, &[], size, 1 << 10, 1);
     // Floor, a side and the back of the room, by so many rays that theirs is no noise beside that of what they read.

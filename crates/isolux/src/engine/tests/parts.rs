@@ -12,6 +12,7 @@ use crate::engine::plan::Plan;
 use crate::engine::ray::{Accumulator, Deadline, Noise};
 use crate::map::Standing;
 use crate::scene::{Body, Dielectric};
+use std::sync::Arc;
 
 #[test]
 fn parts_of_an_element_are_told_apart_and_have_their_middles() {
@@ -164,19 +165,21 @@ fn caustic_error(plan: &Plan, particles: u32) -> f64 {
 fn elements_are_as_fine_as_a_sharp_caustic_needs() {
     let scene = room_with_a_lens();
     let lighting = Lighting::new(&scene);
-    let mut coarse = pilot(&scene, &lighting, &request(1.0), &mut Unlit::default(), &mut |_| true);
-    let mut fine = pilot(&scene, &lighting, &request(0.03), &mut Unlit::default(), &mut |_| true);
+    let mut coarse = pilot(&scene, &lighting, &request(1.0), &Unlit::default(), &mut |_| true);
+    let mut fine = pilot(&scene, &lighting, &request(0.03), &Unlit::default(), &mut |_| true);
     let all_parts = |plan: &Plan| {
         let leaves: Vec<u32> = plan.mesh.subdivision.leaves().collect();
         ElementParts::new(&plan.mesh.subdivision, &leaves)
     };
     // Elements as they are for other light blur the spot that the lamp makes below the ball.
-    coarse.errors.parts = all_parts(&coarse);
+    let parts = all_parts(&coarse);
+    Arc::get_mut(&mut coarse.result.errors).unwrap().parts = parts;
     let as_for_other_light = caustic_error(&coarse, 1 << 18);
     assert!(as_for_other_light > 0.03, "{as_for_other_light}");
     // Those of a pilot that was asked for 3 % are to take 0.9 % of it for caustics, and what is in doubt.
     let told = fine.errors.caustics_lx / fine.light.reference_lx;
-    fine.errors.parts = all_parts(&fine);
+    let parts = all_parts(&fine);
+    Arc::get_mut(&mut fine.result.errors).unwrap().parts = parts;
     let seen = caustic_error(&fine, 1 << 18);
     assert!(seen < 0.015 && told < 0.02, "{seen}, {told} told");
 }

@@ -8,6 +8,7 @@ use crate::engine::method::{Hybrid, IncrementSize, deposit};
 use crate::engine::particle::{CausticNoise, particles};
 use crate::engine::ray::SurfacePoint;
 use crate::scene::Gloss;
+use std::sync::Arc;
 
 /// Noise over all areas of nets of n rays, in the square.
 fn noise(areas_m2: &[f64], rays: impl Fn(usize) -> f64) -> f64 {
@@ -95,7 +96,8 @@ fn housings_of_lamps_get_more_rays_than_their_area_is_worth() {
         let lighting = Lighting::new(scene);
         let mut plan = small_plan(scene, &lighting);
         if !has_met_it {
-            plan.tried.trial = RayTrial::usual(plan.light.reference_lx);
+            let usual = RayTrial::usual(plan.light.reference_lx);
+            Arc::get_mut(&mut plan.result.tried).unwrap().trial = usual;
         }
         let size = IncrementSize { rays: 64.0, halvings: 0, particles: 0, goal: 0.02 };
         let hybrid = Hybrid::new(&plan, &[], size, 1 << 10, 1);

@@ -90,7 +90,7 @@ fn nothing_is_known_of_the_floor_below_a_box() {
 fn check_points_judge_cut_elements_as_rays_read_them() {
     let rays_only = |scene: &Scene| {
         let lighting = Lighting::new(scene);
-        let plan = pilot(scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+        let plan = pilot(scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
         let checks = check_points::draw(&plan, 8, Key::new(2));
         check_points::places(&checks, true) - 2 * checks.len()
     };
@@ -107,12 +107,10 @@ fn check_points_judge_cut_elements_as_rays_read_them() {
 fn what_an_earlier_pilot_found_unlit_is_not_asked_again_and_changes_nothing() {
     let scene = box_in_a_floor();
     let lighting = Lighting::new(&scene);
-    let mut unlit = Unlit::default();
-    let mut plan = || {
-        let plan = pilot(&scene, &lighting, &usual_request(), &mut unlit, &mut |_| true);
-        (plan, unlit.0.clone())
-    };
-    let [(first, found), (second, found_again)] = [plan(), plan()];
+    let plan = |unlit: &Unlit| pilot(&scene, &lighting, &usual_request(), unlit, &mut |_| true);
+    let first = plan(&Unlit::default());
+    let second = plan(&first.unlit);
+    let [found, found_again] = [&first.unlit.0, &second.unlit.0];
     assert!(found.values().any(|&places| places != 0), "all that is hidden sees light");
     assert_eq!(found, found_again);
     assert_eq!(first.mesh.elements, second.mesh.elements);

@@ -141,7 +141,7 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
         least_edge_m: None,
         deadline: Deadline::NEVER,
     };
-    let plan = pilot(&scene, &lighting, &request, &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &request, &Unlit::default(), &mut |_| true);
     let at = plan.expected_lx(plan.trust());
     let split = |e: &&LeafError| e.is_beset && plan.mesh.elements.node(e.node).split.is_some();
     let beset: Vec<&LeafError> = plan.errors.of_elements.iter().filter(split).collect();
@@ -188,7 +188,7 @@ fn readers_gather_beside_a_picture_on_a_wall() {
     let lamps = vec![isotropic([4.6, 1.8, 4.3], 100.0)];
     let scene = scene(shapes, vec![painted(Rgb::grey(0.6))], lamps);
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let at = front_at(&scene, Point::new(6.85, 0.0, 1.45));
     let corners = plan.mesh.elements.locate(at.triangle, at.back, at.u, at.v).expect("it is lit");
     let expected_lx = plan.expected_lx(plan.trust());

@@ -20,6 +20,7 @@ use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Normal, Point, Ray, Vector};
 use patches::{Patch, Patches, reflected_lm};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -38,6 +39,7 @@ const MOST_CUBES: usize = 64;
 const MOST_SENT_RATIO: f64 = 0.5;
 
 /// The bright surfaces of a scene.
+#[derive(Serialize, Deserialize)]
 pub(crate) struct BrightSurfaces {
     parts: Vec<Part>,
     patches: Patches,
@@ -49,6 +51,7 @@ pub(crate) struct BrightSurfaces {
 }
 
 /// Bright surfaces that lie together.
+#[derive(Serialize, Deserialize)]
 struct Part {
     centre: Point,
     radius_m: f64,
@@ -130,6 +133,19 @@ impl BrightSurfaces {
             parts.push(part);
         }
         Some(Self { parts, patches, of_patches, mean_lx })
+    }
+
+    /// Whether the surfaces are some of so many triangles.
+    pub(crate) fn are_of(&self, triangles: u32) -> bool {
+        let is_part = |part: &Part| {
+            !part.patches.is_empty()
+                && part.sums_lm.len() == part.patches.len()
+                && part.patches.iter().all(|patch| patch.triangle < triangles)
+        };
+        self.patches.are_of(triangles)
+            && self.of_patches.len() == self.patches.all.len()
+            && self.of_patches.iter().all(|&(part, _)| part < self.parts.len())
+            && self.parts.iter().all(is_part)
     }
 
     /// The bright surfaces as seen from a place with `rays` rays; `None` where no ray is worth sending.

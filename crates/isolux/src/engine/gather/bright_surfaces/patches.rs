@@ -9,6 +9,7 @@ use crate::engine::ray::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::Point;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The number of particles above which a patch is bisected. The density of light in a patch of so few errs by a
@@ -19,7 +20,7 @@ const FEW_PARTICLES: usize = 8;
 const LEAST_EDGE_ROUNDINGS: f64 = 4.0;
 
 /// A node of the bisection of a side.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 struct Node {
     /// The corner opposite to the edge that is bisected.
     corner: u8,
@@ -30,7 +31,7 @@ struct Node {
 }
 
 /// A patch that is not bisected further.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Patch {
     pub(super) triangle: u32,
     pub(super) back: bool,
@@ -41,6 +42,7 @@ pub(super) struct Patch {
 }
 
 /// All patches that are brighter than a limit.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Patches {
     /// The first node of the front and back of each triangle.
     roots: Vec<[u32; 2]>,
@@ -82,6 +84,21 @@ impl Patches {
             patches.divide(scene, side, arrived, least_lx);
         }
         patches
+    }
+
+    /// Whether the patches are parts of so many triangles, and the way down to each ends.
+    pub(super) fn are_of(&self, triangles: u32) -> bool {
+        let count = self.nodes.len();
+        let is_node = |(number, node): (usize, &Node)| {
+            let below = node.below as usize;
+            let goes_down = node.below == NO_INDEX || below > number && below + 1 < count;
+            let is_patch = node.patch == NO_INDEX || (node.patch as usize) < self.all.len();
+            node.corner < 3 && goes_down && is_patch
+        };
+        self.roots.len() <= triangles as usize
+            && self.roots.iter().flatten().all(|&r| r == NO_INDEX || (r as usize) < count)
+            && self.nodes.iter().enumerate().all(is_node)
+            && self.all.iter().all(|patch| patch.triangle < triangles)
     }
 
     /// The number of the patch that a place lies in.

@@ -18,6 +18,7 @@ use isolux_geometry::Direction;
 use planes::{BESIDE_WALL_SHARE, Rectangle};
 use polynomial::{COEFFICIENTS, Polynomial, View, powers};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// The largest number of walls: a room has six.
@@ -58,12 +59,12 @@ pub(crate) struct LitStand {
 }
 
 /// The walls of a scene and their light.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct ControlVariate {
     walls: Vec<Wall>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 struct Wall {
     rectangle: Rectangle,
     /// The light that it reflects, lx, photometric.

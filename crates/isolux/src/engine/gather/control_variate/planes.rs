@@ -5,6 +5,7 @@ use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::{self, CosineHemisphere, Sequence};
 use crate::scene::Scene;
 use isolux_geometry::{Point, Ray, Triangle, Vector};
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// The largest number of rectangles: a room has six walls, each with two sides.
@@ -20,7 +21,7 @@ const PLANE_TOLERANCE: f64 = 1e-4;
 /// of the wall and, for rays, of their length.
 pub(super) const BESIDE_WALL_SHARE: f64 = 1e-3;
 /// A rectangle that faces the room.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Rectangle {
     pub(super) middle: Point,
     /// The directions of its sides, and its normal.

@@ -3,6 +3,7 @@
 use super::lanes::{LANES, Lanes};
 use crate::quadrature::GaussRule;
 use isolux_geometry::{Vector, Vectorized, with_vectors};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_1_PI;
 use std::sync::OnceLock;
 
@@ -20,7 +21,7 @@ const MOST_NODES: usize = (FEWEST_NODES + 2.0 * INTEGRATION_LIMIT) as usize;
 const INTEGRATION_LIMIT: f64 = 24.0;
 
 /// A polynomial in two variables from -1 to 1: the coefficients of `x^i y^k`, ordered by `i`, then `k`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Polynomial(pub(super) [f64; COEFFICIENTS]);
 
 /// The position and normal of a place relative to a plane.

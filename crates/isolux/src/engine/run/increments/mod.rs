@@ -1,9 +1,9 @@
 //! The increments on one mesh: an engine, its sums, and the map made from them.
 
 mod outlook;
+mod saved;
 
-use super::request::{SolveError, SolveRequest};
-use super::state::{RunState, restore};
+use super::request::SolveRequest;
 use crate::ablation::without;
 use crate::engine::gather::{OF_INTERPOLATED, noise_for};
 use crate::engine::judge::{
@@ -43,6 +43,8 @@ pub(crate) struct Work<'p, 's> {
     stops_at_unshot: bool,
     /// The relative accuracy goal of the run.
     goal: Option<f64>,
+    /// The number of the first increment: zero, but for parts of runs.
+    first: u64,
 }
 
 enum Engine<'p, 's> {
@@ -111,7 +113,8 @@ impl<'p, 's> Work<'p, 's> {
         let given_up = Accumulator::new(1, reference_of(plan, &engine));
         let stops_at_unshot = request.radiosity.unshot.is_some();
         let (samples, left, goal) = (rays, None, request.accuracy);
-        Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal }
+        let first = 0;
+        Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal, first }
             .in_units_of_light()
             .looked_at()
     }
@@ -128,19 +131,6 @@ impl<'p, 's> Work<'p, 's> {
         self
     }
 
-    pub(crate) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
-        restore(&mut self.sums, &saved.receivers, saved.increments)?;
-        let (checks, lacking) = saved
-            .checks
-            .split_at_checked(self.checks.sums.sums.len())
-            .ok_or(SolveError::OtherRun("the number of check points"))?;
-        restore(&mut self.checks.sums, checks, saved.increments)?;
-        restore(&mut self.checks.lacking, lacking, saved.increments)?;
-        restore(&mut self.given_up, &saved.given_up, saved.increments)?;
-        self.look_what_is_left();
-        Ok(())
-    }
-
     fn looked_at(mut self) -> Self {
         self.look_what_is_left();
         self
@@ -155,8 +145,8 @@ impl<'p, 's> Work<'p, 's> {
     /// Adds one increment and returns the number of rays traced; `None` if its deadline passes before. The first
     /// increment is always completed, except that of `hybrid`, whose pilot knows the light.
     pub(crate) fn increment(&mut self, end: Deadline) -> Option<u64> {
-        let index = self.sums.increments;
-        let deadline = if index > 0 { end } else { Deadline::NEVER };
+        let deadline = if self.sums.increments > 0 { end } else { Deadline::NEVER };
+        let index = self.first + self.sums.increments;
         let effort = match &mut self.engine {
             Engine::Hybrid(hybrid) => {
                 let made = hybrid.increment(index, &self.checks.points, end)?;

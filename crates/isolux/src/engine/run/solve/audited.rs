@@ -21,13 +21,7 @@ impl Run<'_, '_> {
     /// Whether and why the increments end here. The map is audited first if they are about to end.
     pub(super) fn audited_end(&mut self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
         self.audit = None;
-        let count = work.sums.increments;
-        // Increments are judged a second time where a saved run goes on, or the time ends within the next one.
-        let noise =
-            accuracy.filter(|_| count.is_power_of_two()).map(|told| (count, told.statistical));
-        if noise.is_some() && noise != self.audited.noise.last().copied() {
-            self.audited.noise.extend(noise);
-        }
+        self.note_noise(work, accuracy);
         let end = self.end(work, accuracy);
         let is_last = matches!(end, Some(End::Reached | End::InVain)) && !self.stopped;
         let audit = self.request.audit && is_last;
@@ -48,6 +42,17 @@ impl Run<'_, '_> {
         }
         self.audited.true_over_told *= times;
         self.end(work, accuracy)
+    }
+
+    /// Notes the reported noise where the number of increments is a power of two.
+    pub(super) fn note_noise(&mut self, work: &Work, accuracy: Option<Accuracy>) {
+        let count = work.sums.increments;
+        // Increments are judged a second time where a saved run goes on, or the time ends within the next one.
+        let noise =
+            accuracy.filter(|_| count.is_power_of_two()).map(|told| (count, told.statistical));
+        if noise.is_some() && noise != self.audited.noise.last().copied() {
+            self.audited.noise.extend(noise);
+        }
     }
 
     /// An audit of the present map.

@@ -3,7 +3,9 @@
 use super::super::increments::Work;
 use super::super::prediction;
 use super::super::request::{Prediction, Progress, SolveRequest, Stage, Watch};
-use super::super::state::{Audited, RunIdentity, RunState};
+use super::super::state::{
+    Audited, MOST_STAGES, PilotState, RunIdentity, RunState, STAGES_TO_HALF,
+};
 use super::so_far::{SoFar, Solution, Watcher};
 use crate::ablation::without;
 use crate::engine::gather::Unlit;
@@ -15,7 +17,6 @@ use crate::engine::plan::Plan;
 use crate::engine::ray::{Deadline, Sums};
 use crate::map::{Accuracy, Audit, IlluminationMap, Method, Provenance};
 use crate::scene::Scene;
-use std::mem;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -23,11 +24,6 @@ use std::time::{Duration, Instant};
 const PILOT_SHARE: f64 = 0.4;
 /// The largest number of halvings of the rays of an increment, where time is short.
 const MOST_HALVINGS: u32 = 8;
-/// The number of stages that halve the error which elements are made for.
-const STAGES_TO_HALF: u32 = 4;
-/// The largest number of stages, after which a run keeps what it has. The last one has elements for an eighth of the
-/// accuracy goal.
-pub(super) const MOST_STAGES: u32 = 3 * STAGES_TO_HALF + 1;
 /// The least number of stages to advance, since the error of the elements is known with some noise.
 pub(super) const FEWEST_STAGES: u32 = 2;
 /// The error that finer elements are to have after too coarse ones, as a share of the accuracy goal. Noise needs the
@@ -48,6 +44,8 @@ pub(super) struct Run<'s, 'r> {
     pub(super) identity: RunIdentity,
     pub(super) started: Instant,
     pub(super) rays: u64,
+    /// The part of `rays` that was traced before the first increment on the present elements.
+    pub(super) rays_of_pilots: u64,
     /// The part of `rays` that an earlier run has traced.
     pub(super) earlier_rays: u64,
     /// Whether the watcher or the time limit has stopped the run.
@@ -58,9 +56,11 @@ pub(super) struct Run<'s, 'r> {
     /// The duration of the last pilot, s.
     pub(super) pilot_s: f64,
     /// The places that pilots have found unlit.
-    pub(super) unlit: Unlit,
+    pub(super) unlit: Arc<Unlit>,
     /// The stage of the saved run that this one continues; zero if there is none.
     pub(super) saved_stage: u32,
+    /// The pilot of a saved run, in place of one of the same stage.
+    pub(super) saved_pilot: Option<PilotState>,
     /// The luminaires, for audits; `None` if no map is made.
     pub(super) lighting: Option<Arc<Lighting<'s>>>,
     /// The results of the audits so far.
@@ -77,12 +77,14 @@ impl<'s, 'r> Run<'s, 'r> {
             identity: RunIdentity::of(scene, request),
             started: Instant::now(),
             rays: 0,
+            rays_of_pilots: 0,
             earlier_rays: 0,
+            saved_pilot: None,
             stopped: false,
             cut: false,
             stage: 1,
             pilot_s: 0.0,
-            unlit: Unlit::default(),
+            unlit: Arc::default(),
             saved_stage: 0,
             lighting: None,
             audited: Audited::default(),
@@ -104,6 +106,11 @@ impl<'s, 'r> Run<'s, 'r> {
 
     pub(super) fn out_of_time(&self) -> bool {
         self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
+    }
+
+    /// The end of the time limit, if there is one.
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        self.request.time_limit.and_then(|limit| self.started.checked_add(limit))
     }
 
     /// Whether the time left is better spent on increments than on finer elements, the next of which take `step_s`.
@@ -153,16 +160,34 @@ impl<'s, 'r> Run<'s, 'r> {
         Deadline(limit.and_then(|limit| self.started.checked_add(limit.mul_f64(PILOT_SHARE))))
     }
 
-    pub(super) fn pilot(
-        &mut self,
-        lighting: &'s Lighting<'s>,
-        watch: &mut Watcher<'_>,
-    ) -> Plan<'s> {
+    /// The result of a pilot, for other runs.
+    pub(super) fn pilot_state(&self, plan: &Plan) -> PilotState {
+        PilotState {
+            identity: self.identity.clone(),
+            stage: self.stage,
+            rays: self.rays_of_pilots,
+            result: plan.result.clone(),
+        }
+    }
+
+    /// The plan of the present stage: a saved one, or that of a pilot.
+    pub(super) fn plan(&mut self, lighting: &'s Lighting<'s>, watch: &mut Watcher<'_>) -> Plan<'s> {
+        match self.saved_pilot.take_if(|saved| saved.stage == self.stage) {
+            Some(PilotState { rays, result, .. }) => {
+                self.rays_of_pilots = rays;
+                self.unlit = Arc::clone(&result.unlit);
+                Plan { scene: self.scene, lighting, result }
+            }
+            None => self.pilot(lighting, watch),
+        }
+    }
+
+    fn pilot(&mut self, lighting: &'s Lighting<'s>, watch: &mut Watcher<'_>) -> Plan<'s> {
         let request = self.pilot_request();
         let (before, started_s) = (self.rays, self.elapsed_s());
         let scene = self.scene;
-        let mut unlit = mem::take(&mut self.unlit);
-        let plan = pilot(scene, lighting, &request, &mut unlit, &mut |round| {
+        let unlit = Arc::clone(&self.unlit);
+        let plan = pilot(scene, lighting, &request, &unlit, &mut |round| {
             self.rays = before + round.rays;
             let progress = self.progress(Stage::Pilot, 0, round.receivers as u64, None);
             let progress = Progress { prediction: self.foreseen(round), ..progress };
@@ -174,9 +199,10 @@ impl<'s, 'r> Run<'s, 'r> {
             self.stage == self.saved_stage
                 || !(self.stopped || self.refined_long_enough(round.step_s))
         });
-        self.unlit = unlit;
+        self.unlit = Arc::clone(&plan.unlit);
         self.cut |= !plan.is_whole;
         self.rays = before + plan.rays;
+        self.rays_of_pilots = self.rays;
         self.pilot_s = self.elapsed_s() - started_s;
         plan
     }
@@ -188,7 +214,7 @@ impl<'s, 'r> Run<'s, 'r> {
         Some(prediction::foreseen(round.left, self.elapsed_s()))
     }
 
-    fn progress(
+    pub(super) fn progress(
         &self,
         stage: Stage,
         increments: u64,
@@ -286,8 +312,7 @@ impl<'s, 'r> Run<'s, 'r> {
         if self.stopped && work.sums.increments > 0 {
             return false;
         }
-        let end = self.request.time_limit.and_then(|limit| self.started.checked_add(limit));
-        let rays = work.increment(Deadline(end));
+        let rays = work.increment(Deadline(self.deadline()));
         self.rays += rays.unwrap_or(0);
         if rays.is_none() && work.sums.increments == 0 {
             self.cut = true;
@@ -304,7 +329,7 @@ impl<'s, 'r> Run<'s, 'r> {
         end: Option<End>,
     ) -> Progress {
         let count = work.sums.increments;
-        let receivers = work.sums.sums.len() as u64;
+        let receivers = work.receivers();
         let progress = self.progress(Stage::Increments, count, receivers, accuracy);
         let goal = self.goal();
         let needed = goal.and_then(|goal| work.increments_needed(accuracy, goal));
@@ -345,6 +370,7 @@ impl<'s, 'r> Run<'s, 'r> {
             receivers: some(&|work| work.sums.sums.clone()),
             checks: some(&|work| work.checks.all()),
             given_up: some(&|work| work.given_up.sums.clone()),
+            pilot: sums.map(|work| self.pilot_state(work.plan)),
         }
     }
 

@@ -1,7 +1,8 @@
 //! The results of a run, for its caller and its watchers.
 
-use super::super::request::{Progress, Watch};
-use super::super::state::RunState;
+use super::super::part::RunPart;
+use super::super::request::{Progress, SolveError, Watch};
+use super::super::state::{PilotState, RunState};
 use crate::engine::method::IrradianceCache;
 use crate::map::IlluminationMap;
 
@@ -57,3 +58,8 @@ impl SoFar<'_> {
 
 /// The watcher of a run. It receives the progress, may ask for results so far, and answers how the run continues.
 pub type Watcher<'w> = dyn FnMut(&Progress, &SoFar<'_>) -> Watch + 'w;
+
+/// Increments that are made elsewhere: the part of a run that begins with the increment of this number, on the mesh of
+/// this pilot. A part with one increment gives the same bits as a run that makes all increments itself. `None` stops
+/// the run.
+pub type Elsewhere<'e> = dyn FnMut(&PilotState, u64) -> Result<Option<RunPart>, SolveError> + 'e;

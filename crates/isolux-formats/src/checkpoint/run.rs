@@ -1,0 +1,223 @@
+//! Runs as checkpoints: their states, pilots and parts.
+
+use super::Checkpoint;
+use isolux::engine::{Audited, PilotState, RunIdentity, RunPart, RunState, Segment, Sums};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+/// What a checkpoint is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Run,
+    Pilot,
+    Part,
+}
+
+impl Kind {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Run => "the state of a run",
+            Self::Pilot => "the result of a pilot",
+            Self::Part => "a part of a run",
+        }
+    }
+}
+
+#[derive(Deserialize)]
+struct AnyKind {
+    kind: Kind,
+}
+
+/// What stands in front of the sums of a run.
+#[derive(Serialize, Deserialize)]
+struct OfRun {
+    kind: Kind,
+    identity: RunIdentity,
+    stage: u32,
+    rays: u64,
+    increments: u64,
+    audited: Audited,
+}
+
+/// What stands in front of the result of a pilot.
+#[derive(Serialize, Deserialize)]
+struct OfPilot {
+    kind: Kind,
+    identity: RunIdentity,
+    stage: u32,
+    rays: u64,
+}
+
+/// What stands in front of the sums of a part.
+#[derive(Serialize, Deserialize)]
+struct OfPart {
+    kind: Kind,
+    scene: String,
+    identity: RunIdentity,
+    stage: u32,
+    segments: Vec<OfSegment>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct OfSegment {
+    first: u64,
+    count: u64,
+    rays: u64,
+}
+
+/// A part of a run, and its scene as the user named it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// A path, or the name of a builtin scene.
+    pub scene: String,
+    /// The increments.
+    pub part: RunPart,
+}
+
+/// The state of a run, without its pilot.
+pub fn of_state(state: &RunState) -> Checkpoint {
+    let mut checkpoint = with_header(&OfRun {
+        kind: Kind::Run,
+        identity: state.identity.clone(),
+        stage: state.stage,
+        rays: state.rays,
+        increments: state.increments,
+        audited: state.audited.clone(),
+    });
+    let arrays =
+        [("receivers", &state.receivers), ("checks", &state.checks), ("given_up", &state.given_up)];
+    arrays.iter().for_each(|(name, sums)| push_sums(&mut checkpoint, name, sums, Squares::Kept));
+    checkpoint
+}
+
+/// The state of a run, without its pilot. The error says what is wrong.
+pub fn state(checkpoint: &Checkpoint) -> Result<RunState, String> {
+    let header: OfRun = header(checkpoint, Kind::Run)?;
+    let sums = |name: &str| sums(checkpoint, name, Squares::Kept);
+    Ok(RunState {
+        identity: header.identity,
+        stage: header.stage,
+        rays: header.rays,
+        increments: header.increments,
+        audited: header.audited,
+        receivers: sums("receivers")?,
+        checks: sums("checks")?,
+        given_up: sums("given_up")?,
+        pilot: None,
+    })
+}
+
+/// The result of a pilot. The error says why it cannot be kept.
+pub fn of_pilot(pilot: &PilotState) -> Result<Checkpoint, String> {
+    let PilotState { identity, stage, rays, .. } = pilot;
+    let (identity, stage, rays) = (identity.clone(), *stage, *rays);
+    let mut checkpoint = with_header(&OfPilot { kind: Kind::Pilot, identity, stage, rays });
+    let bytes = postcard::to_allocvec(&pilot.result).map_err(|error| error.to_string())?;
+    checkpoint.arrays.push((RESULT.to_owned(), bytes));
+    Ok(checkpoint)
+}
+
+/// The result of a pilot. The error says what is wrong.
+pub fn pilot(checkpoint: &Checkpoint) -> Result<PilotState, String> {
+    let OfPilot { identity, stage, rays, .. } = header(checkpoint, Kind::Pilot)?;
+    let bytes = checkpoint.array(RESULT).map_err(|error| error.to_string())?;
+    let result = postcard::from_bytes(bytes)
+        .map_err(|error| format!("the result of the pilot is not one ({error})"))?;
+    Ok(PilotState { identity, stage, rays, result })
+}
+
+const RESULT: &str = "result";
+
+/// A part of a run.
+pub fn of_part(Part { scene, part }: &Part) -> Checkpoint {
+    let segment = |of: &Segment| OfSegment { first: of.first, count: of.count, rays: of.rays };
+    let mut checkpoint = with_header(&OfPart {
+        kind: Kind::Part,
+        scene: scene.clone(),
+        identity: part.identity.clone(),
+        stage: part.stage,
+        segments: part.segments.iter().map(segment).collect(),
+    });
+    for (k, segment) in part.segments.iter().enumerate() {
+        let squares = Squares::of(segment.count);
+        push_sums(&mut checkpoint, &format!("receivers_{k}"), &segment.receivers, squares);
+        push_sums(&mut checkpoint, &format!("checks_{k}"), &segment.checks, squares);
+        push_sums(&mut checkpoint, &format!("given_up_{k}"), &segment.given_up, squares);
+    }
+    checkpoint
+}
+
+/// A part of a run. The error says what is wrong.
+pub fn part(checkpoint: &Checkpoint) -> Result<Part, String> {
+    let OfPart { scene, identity, stage, segments, .. } = header(checkpoint, Kind::Part)?;
+    let segment = |(k, of): (usize, OfSegment)| {
+        let OfSegment { first, count, rays } = of;
+        let sums = |name: &str| sums(checkpoint, &format!("{name}_{k}"), Squares::of(count));
+        let (receivers, checks, given_up) =
+            (sums("receivers")?, sums("checks")?, sums("given_up")?);
+        Ok(Segment { first, count, rays, receivers, checks, given_up })
+    };
+    let segments = segments.into_iter().enumerate().map(segment).collect::<Result<_, String>>()?;
+    let part = RunPart { identity, stage, segments };
+    if part.is_sound() { Ok(Part { scene, part }) } else { Err(UNSOUND.into()) }
+}
+
+const UNSOUND: &str = "its increments overlap, or have sums of different lengths";
+
+/// How squares of sums are stored.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Squares {
+    Kept,
+    /// Those of one increment follow from its sums.
+    Implied,
+}
+
+impl Squares {
+    const fn of(increments: u64) -> Self {
+        if increments == 1 { Self::Implied } else { Self::Kept }
+    }
+}
+
+fn with_header(header: &impl Serialize) -> Checkpoint {
+    Checkpoint::new(serde_json::to_value(header).expect("plain values always have a JSON value"))
+}
+
+fn header<T: DeserializeOwned>(checkpoint: &Checkpoint, wanted: Kind) -> Result<T, String> {
+    let AnyKind { kind } = AnyKind::deserialize(&checkpoint.header)
+        .map_err(|error| format!("its header is not that of a run ({error})"))?;
+    if kind != wanted {
+        return Err(format!("it is {}, not {}", kind.name(), wanted.name()));
+    }
+    T::deserialize(&checkpoint.header)
+        .map_err(|error| format!("its header is not that of {} ({error})", wanted.name()))
+}
+
+fn push_sums(checkpoint: &mut Checkpoint, name: &str, sums: &[Sums], squares: Squares) {
+    let values: Vec<i64> = sums.iter().flat_map(|s| s.values).collect();
+    let totals: Vec<i64> = sums.iter().flat_map(|s| s.totals).collect();
+    checkpoint.push(format!("{name}_values"), &values);
+    checkpoint.push(format!("{name}_totals"), &totals);
+    if squares == Squares::Kept {
+        let squares: Vec<i128> = sums.iter().flat_map(|s| s.squares).collect();
+        checkpoint.push(format!("{name}_squares"), &squares);
+    }
+}
+
+fn sums(checkpoint: &Checkpoint, name: &str, kept: Squares) -> Result<Vec<Sums>, String> {
+    let array = |part: &str| {
+        checkpoint.integers::<i64>(&format!("{name}_{part}")).map_err(|error| error.to_string())
+    };
+    let (values, totals) = (array("values")?, array("totals")?);
+    let squares = match kept {
+        Squares::Kept => checkpoint
+            .integers::<i128>(&format!("{name}_squares"))
+            .map_err(|error| error.to_string())?,
+        Squares::Implied => totals.iter().map(|&of| i128::from(of) * i128::from(of)).collect(),
+    };
+    let (values, _) = values.as_chunks::<9>();
+    let (totals, _) = totals.as_chunks::<3>();
+    let (squares, _) = squares.as_chunks::<3>();
+    let rows = values.iter().zip(totals).zip(squares);
+    Ok(rows.map(|((&values, &totals), &squares)| Sums { values, totals, squares }).collect())
+}
