@@ -11,6 +11,7 @@ mod grids;
 mod hall;
 mod judge;
 mod lamps;
+mod loaders;
 mod page;
 mod peers;
 mod reliability;
@@ -33,6 +34,7 @@ cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask page    of it, the tests of the walk-through's page, and whether its built file is that of its sources
 cargo xtask walk    of it, the walk-through in Chromium, beside what the command says of the same maps
+cargo xtask loader three  of it, the loader of three.js in Chromium, beside what the command says of the same map
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask compared      of --all, all systems by error against time, as short as it can be
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
         ["smoke"] => test::smoke_and_judge(root),
         ["page"] => page::run(root),
         ["walk"] => walk::run(root),
+        ["loader", "three"] => loaders::three(root),
         ["lamps"] => lamps::run(root),
         ["golden", ref arguments @ ..] => golden::run(root, arguments),
         ["reliability", ref arguments @ ..] => reliability::run(root, arguments),

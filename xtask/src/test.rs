@@ -2,8 +2,8 @@
 
 use crate::smoke::isolux;
 use crate::{
-    colours, compared, golden, grids, judge, lamps, page, peers, sanitize, smoke, tidy, walk,
-    worlds,
+    colours, compared, golden, grids, judge, lamps, loaders, page, peers, sanitize, smoke, tidy,
+    walk, worlds,
 };
 use std::path::Path;
 use std::process::Command;
@@ -15,7 +15,7 @@ const CARGO_STEPS: [&[&str]; 2] = [
 ];
 
 /// What every change must pass. With `all` more judges look at what the command line made.
-fn every_change(all: bool) -> [Step; 8] {
+fn every_change(all: bool) -> [Step; 9] {
     [
         ("tidy", tidy::run),
         ("cargo test --workspace", |root| cargo(root, &["test", "--workspace"])),
@@ -25,6 +25,7 @@ fn every_change(all: bool) -> [Step; 8] {
         ),
         ("page of the walk-through", page::run),
         ("outside judge of the walk-through: Chromium", walk::run),
+        ("outside judge of the loader of three.js: Chromium", loaders::three),
         ("outside judges of photometric files: ies2rad, photompy", lamps::run),
         ("outside judge of differences of colours: colour-science", colours::run),
         ("scripts of the bench of peers", peers::check),
