@@ -1,7 +1,8 @@
 //! Judges of the loaders: what other software reads of a map, beside what the command says of it.
 
+use crate::judge::optional;
 use crate::lamps::built;
-use crate::peers::wait;
+use crate::peers::{python_of_judge, wait};
 use crate::worlds::missing_for_pages;
 use std::path::Path;
 use std::process::Command;
@@ -16,4 +17,17 @@ pub(crate) fn three(root: &Path) -> Result<String, String> {
     node.arg("loader-three.mjs").arg(built(root)?).current_dir(&checks);
     wait(&mut node, "checks/loader-three.mjs")?;
     Ok("loaders/three reads, dims and shows what the command does".to_owned())
+}
+
+/// The add-on of Blender, in Blender as a module of Python. Without Python 3.11 or a package index it is left out.
+pub(crate) fn blender(root: &Path) -> Result<String, String> {
+    let source = root.join("checks").join("blender-addon");
+    let python = python_of_judge(&source, &root.join("target").join("judge-of-blender"));
+    optional(python.map_err(|e| format!("{e}; bpy needs Python 3.11 as python3")), |python| {
+        let mut judge = Command::new(python);
+        judge.arg("-B").arg(source.join("judge.py")).arg(built(root)?);
+        judge.arg(root.join("loaders").join("blender"));
+        wait(&mut judge, "checks/blender-addon/judge.py")?;
+        Ok("loaders/blender brings the light to Blender that the command computes".to_owned())
+    })
 }
