@@ -1,5 +1,7 @@
 //! Judges of the loaders: what other software reads of a map, beside what the command says of it.
 
+mod bevy;
+
 use crate::judge::optional;
 use crate::lamps::built;
 use crate::peers::{python_of_judge, wait};
@@ -30,4 +32,9 @@ pub(crate) fn blender(root: &Path) -> Result<String, String> {
         wait(&mut judge, "checks/blender-addon/judge.py")?;
         Ok("loaders/blender brings the light to Blender that the command computes".to_owned())
     })
+}
+
+/// The loader of Bevy, without a window. Without its crates it is left out.
+pub(crate) fn bevy(root: &Path) -> Result<String, String> {
+    optional(bevy::fetched(root), |()| bevy::run(root))
 }

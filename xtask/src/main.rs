@@ -40,6 +40,7 @@ cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask compared      of --all, all systems by error against time, as short as it can be
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
+cargo xtask loader bevy      of --all, the loader of Bevy, built of its crates, beside probe and mix
 cargo xtask loader blender   of --all, the add-on of Blender in Blender (a download of 400 MB), beside closed forms, probe and Cycles
 cargo xtask sanitize      of --all, the ray kernel under the address sanitizer
 cargo xtask reliability   faults injected into runs of the command: kills, full disks, damaged states; are the bytes the same?
@@ -71,6 +72,7 @@ fn main() -> ExitCode {
         ["page"] => page::run(root),
         ["walk"] => walk::run(root),
         ["loader", "three"] => loaders::three(root),
+        ["loader", "bevy"] => loaders::bevy(root),
         ["loader", "blender"] => loaders::blender(root),
         ["lamps"] => lamps::run(root),
         ["golden", ref arguments @ ..] => golden::run(root, arguments),

@@ -33,10 +33,11 @@ fn every_change(all: bool) -> [Step; 9] {
 }
 
 /// What takes longer or changes less, and must hold before a release.
-const ALL: [Step; 5] = [
+const ALL: [Step; 6] = [
     ("the ray kernel under the address sanitizer", sanitize::run),
     ("comparison of all systems, as short as it can be", compared::run),
     ("outside judge of the add-on of Blender: Blender", loaders::blender),
+    ("outside judge of the loader of Bevy: its crates", loaders::bevy),
     ("golden maps", |root| golden::run(root, &[])),
     ("validation against exact values", validate),
 ];
