@@ -37,6 +37,6 @@ mod tests {
             files.sort_unstable();
             check(&Tree::of(&files)).len()
         };
-        assert_eq!((many(15), many(16)), (0, 1));
+        assert_eq!((many(LIMIT - 1), many(LIMIT)), (0, 1));
     }
 }
