@@ -22,8 +22,8 @@ export async function launch(executablePath) {
   return { heard, open: (url, how) => open(browser, heard, url, how ?? {}), close: () => browser.close() };
 }
 
-/** Opens a page as large as said, with nothing but the canvas in it (`bare`), or as people see it; `before` is told of the page while it is empty. */
-async function open(browser, heard, url, { width = 640, height = 360, bare = true, phone = false, before = () => {} }) {
+/** Opens a page as large as said, with nothing but the canvas in it (`bare`), or as people see it; `before` is told of the page while it is empty, `isOpen` holds once it is there. */
+async function open(browser, heard, url, { width = 640, height = 360, bare = true, phone = false, before = () => {}, isOpen = () => window.isoluxViewer }) {
   const touch = phone ? { isMobile: true, hasTouch: true } : {};
   const context = await browser.newContext({ viewport: { width, height }, deviceScaleFactor: 1, ...touch });
   context.setDefaultTimeout(PATIENCE_MS);
@@ -31,7 +31,7 @@ async function open(browser, heard, url, { width = 640, height = 360, bare = tru
   listen(page, heard);
   before(page);
   await page.goto(url);
-  await page.waitForFunction(() => window.isoluxViewer);
+  await page.waitForFunction(isOpen);
   if (bare) await page.evaluate(strip);
   return page;
 }

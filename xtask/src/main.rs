@@ -11,6 +11,7 @@ mod grids;
 mod hall;
 mod judge;
 mod lamps;
+mod loaders;
 mod page;
 mod peers;
 mod python;
@@ -34,12 +35,15 @@ cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask page    of it, the tests of the walk-through's page, and whether its built file is that of its sources
 cargo xtask walk    of it, the walk-through in Chromium, beside what the command says of the same maps
+cargo xtask loader three  of it, the loader of three.js in Chromium, beside what the command says of the same map
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask python  of it, the wheel of the package for Python, its tests and its types
 cargo xtask compared      of --all, all systems by error against time, as short as it can be
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
+cargo xtask loader bevy      of --all, the loader of Bevy, built of its crates, beside probe and mix
+cargo xtask loader blender   of --all, the add-on of Blender in Blender (a download of 400 MB), beside closed forms, probe and Cycles
 cargo xtask sanitize      of --all, the ray kernel under the address sanitizer
 cargo xtask reliability   faults injected into runs of the command: kills, full disks, damaged states; are the bytes the same?
                           [--only kills|disk|foreign|twice|same|hostile] [--seed 1] [--count 70]
@@ -69,6 +73,9 @@ fn main() -> ExitCode {
         ["smoke"] => test::smoke_and_judge(root),
         ["page"] => page::run(root),
         ["walk"] => walk::run(root),
+        ["loader", "three"] => loaders::three(root),
+        ["loader", "bevy"] => loaders::bevy(root),
+        ["loader", "blender"] => loaders::blender(root),
         ["lamps"] => lamps::run(root),
         ["python"] => python::run(root),
         ["golden", ref arguments @ ..] => golden::run(root, arguments),

@@ -9,7 +9,7 @@ pub(crate) struct Made {
     pub map: PathBuf,
     /// Another scene, for other software.
     pub room: Room,
-    /// The cube for every consumer, as texels and with its light at vertices.
+    /// The cube for every consumer, as texels and with its light and lux at vertices.
     pub for_engines: Vec<PathBuf>,
     /// A card under parallel light, for three.js, with the `.ktx2` beside it.
     pub card: Card,
@@ -72,7 +72,7 @@ pub(crate) fn run(root: &Path) -> Result<Made, String> {
         Ok(file)
     };
     let texels = TARGETS.map(|name| (name, "texels", &["--texels-per-meter", "2"][..]));
-    let vertices = TARGETS.map(|name| (name, "vertices", &[][..]));
+    let vertices = TARGETS.map(|name| (name, "vertices", &["--lux"][..]));
     let for_engines = texels.into_iter().chain(vertices).map(for_engine);
     let for_engines = for_engines.collect::<Result<Vec<PathBuf>, String>>()?;
     let card = card(root, &folder)?;

@@ -2,8 +2,8 @@
 
 use crate::smoke::isolux;
 use crate::{
-    colours, compared, golden, grids, judge, lamps, page, peers, python, sanitize, smoke, tidy,
-    walk, worlds,
+    colours, compared, golden, grids, judge, lamps, loaders, page, peers, python, sanitize, smoke,
+    tidy, walk, worlds,
 };
 use std::path::Path;
 use std::process::Command;
@@ -15,7 +15,7 @@ const CARGO_STEPS: [&[&str]; 2] = [
 ];
 
 /// What every change must pass. With `all` more judges look at what the command line made.
-fn every_change(all: bool) -> [Step; 9] {
+fn every_change(all: bool) -> [Step; 10] {
     [
         ("tidy", tidy::run),
         ("cargo test --workspace", |root| cargo(root, &["test", "--workspace"])),
@@ -25,6 +25,7 @@ fn every_change(all: bool) -> [Step; 9] {
         ),
         ("page of the walk-through", page::run),
         ("outside judge of the walk-through: Chromium", walk::run),
+        ("outside judge of the loader of three.js: Chromium", loaders::three),
         ("outside judges of photometric files: ies2rad, photompy", lamps::run),
         ("outside judge of differences of colours: colour-science", colours::run),
         ("scripts of the bench of peers", peers::check),
@@ -33,13 +34,15 @@ fn every_change(all: bool) -> [Step; 9] {
 }
 
 /// What takes longer or changes less, and must hold before a release.
-const ALL: [Step; 5] = [
+const ALL: [Step; 7] = [
     ("the ray kernel under the address sanitizer", sanitize::run),
     ("a billion rays in a closed hall", |root| {
         let kernel = ["test", "--release", "--quiet", "--package", "isolux-geometry"];
         cargo(root, &[&kernel[..], &["--", "--ignored", "--exact", BILLION]].concat())
     }),
     ("comparison of all systems, as short as it can be", compared::run),
+    ("outside judge of the add-on of Blender: Blender", loaders::blender),
+    ("outside judge of the loader of Bevy: its crates", loaders::bevy),
     ("golden maps", |root| golden::run(root, &[])),
     ("validation against exact values", validate),
 ];

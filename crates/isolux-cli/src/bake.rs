@@ -100,6 +100,7 @@ fn export_of(flags: &BakeFlags, map: PathBuf) -> ExportFlags {
         beside: None,
         finer: Duration::ZERO,
         white: None,
+        lux: false,
         threads: flags.threads,
     }
 }

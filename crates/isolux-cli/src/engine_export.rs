@@ -31,6 +31,9 @@ impl Wanted {
             return refused("--white is for colours of vertices in a .glb; leave it out");
         }
         let is_lightmap = is_texels || matches!(extension.as_deref(), Some("exr" | "ktx2"));
+        if flags.lux && !is_coloured {
+            return refused("--lux is for light at vertices in a .glb; leave it out");
+        }
         if flags.without_dark && !is_lightmap {
             return refused(
                 "--without-dark is for lightmaps; add --layout texels, or leave it out",

@@ -7,6 +7,8 @@ use crate::flags::ExportFlags;
 use crate::map_file;
 use crate::output::OutputPath;
 use crate::quantity::{show_bytes, significant};
+use crate::shown::names;
+use crate::walk::Opened;
 use isolux_formats::counted;
 use isolux_formats::lightmap::{Target, VertexConvention};
 use isolux_formats::map_glb::{Preview, VertexColours, VertexFile, write_vertices};
@@ -23,14 +25,25 @@ pub(crate) fn run(flags: &ExportFlags, target: Target) -> Result<Exported, Failu
     let output = OutputPath::check(&flags.output, "glb")?;
     output.differs_from(&flags.map)?;
     output.replaces_exports_alone()?;
-    let (scene, map) = map_file::read(&flags.map)?;
-    let preview = Preview::automatic(&scene, &map);
-    let white_cd_m2 = flags.white;
-    let file = VertexFile { scene: &scene, map: &map, preview, target, white_cd_m2 };
+    let opened = match flags.lux {
+        true => Opened::read(&flags.map)?,
+        false => Opened::alone(&flags.map, map_file::read(&flags.map)?),
+    };
+    let (scene, map) = (&*opened.scene, &*opened.map);
+    let groups = opened.groups();
+    let file = VertexFile {
+        scene,
+        map,
+        preview: Preview::automatic(scene, map),
+        target,
+        white_cd_m2: flags.white,
+        lux: flags.lux.then_some(&groups[..]),
+    };
     let made = write_vertices(&file)
         .map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
     output.write(&made.bytes)?;
-    let report = Report::of(&made, target, output.path().display().to_string());
+    let of_groups = flags.lux.then(|| groups.into_iter().map(|group| group.name).collect());
+    let report = Report::of(&made, (target, of_groups), output.path().display().to_string());
     Exported::new(&report, report.text())
 }
 
@@ -46,10 +59,16 @@ struct Report {
     white_cd_m2: f64,
     largest_colour: f64,
     vertices_above_white: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    groups: Option<Vec<String>>,
 }
 
 impl Report {
-    fn of(made: &VertexColours, target: Target, file: String) -> Self {
+    fn of(
+        made: &VertexColours,
+        (target, groups): (Target, Option<Vec<String>>),
+        file: String,
+    ) -> Self {
         Self {
             target: target.name(),
             convention: target.vertex_convention(),
@@ -60,6 +79,7 @@ impl Report {
             white_cd_m2: made.white_cd_m2,
             largest_colour: made.largest,
             vertices_above_white: made.above_white,
+            groups,
         }
     }
 
@@ -73,6 +93,13 @@ impl Report {
             ("  white", format!("{} cd/m2", significant(self.white_cd_m2, 3))),
             ("  vertices", self.vertices.to_string()),
         ];
+        if let Some(groups) = &self.groups {
+            let groups = match groups.is_empty() {
+                true => "all light together".to_owned(),
+                false => names(groups.iter().map(String::as_str)),
+            };
+            all.push(("  lux", groups));
+        }
         if self.vertices_above_white > 0 {
             let (largest, count) = (significant(self.largest_colour, 3), self.vertices_above_white);
             let count = counted(count, "vertex", "vertices");

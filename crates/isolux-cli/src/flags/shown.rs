@@ -92,6 +92,9 @@ pub(crate) struct ExportFlags {
     /// Luminance that colours of vertices show as white: 500cd/m2 [default: what 99 % of all surfaces stay below]
     #[arg(long, value_name = "LUMINANCE", value_parser = quantity::luminance_cd_m2, allow_hyphen_values = true)]
     pub white: Option<f64>,
+    /// Lux and standard error beside the colours of vertices, those of each group, too: for the loaders of three.js and Bevy
+    #[arg(long)]
+    pub lux: bool,
     /// Threads to use, at most 1024 [default: all there are]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
     pub threads: Option<u16>,

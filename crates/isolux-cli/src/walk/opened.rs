@@ -5,8 +5,9 @@ use super::told::{ALL_LIGHT, told};
 use crate::failure::Failure;
 use crate::{mix, viewpoint};
 use isolux::engine::{MixPart, Mixed, mix_apart};
-use isolux::map::{IlluminationMap, VertexLight};
+use isolux::map::{IlluminationMap, Provenance, Unshot, VertexLight};
 use isolux::scene::Scene;
+use isolux_formats::map_glb::GroupLight;
 use isolux_formats::walk::{self, Light, Mesh};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -35,10 +36,14 @@ impl Opened {
             return Self::of_groups(path, parts);
         }
         let part = parts.remove(0);
-        let (scene, map) = (Arc::new(part.scene), Arc::new(part.map));
+        Ok(Self::alone(path, (part.scene, part.map)))
+    }
+
+    /// A map whose light is not known by groups.
+    pub(crate) fn alone(path: &Path, (scene, map): (Scene, IlluminationMap)) -> Self {
         let layers = vec![ALL_LIGHT.to_owned()];
-        let path = path.to_owned();
-        Ok(Self { path, scene, map, layers, values: Vec::new(), parts: Vec::new() })
+        let (scene, map) = (Arc::new(scene), Arc::new(map));
+        Self { path: path.to_owned(), scene, map, layers, values: Vec::new(), parts: Vec::new() }
     }
 
     fn of_groups(path: &Path, mut parts: Vec<mix::Part>) -> Result<Self, Failure> {
@@ -83,6 +88,27 @@ impl Opened {
     /// Whether its light is known by groups.
     pub(crate) fn has_groups(&self) -> bool {
         !self.parts.is_empty()
+    }
+
+    /// The light of each group at the vertices of the map, known where that is.
+    pub(crate) fn groups(&self) -> Vec<GroupLight> {
+        let groups = self.layers.iter().zip(&self.values).zip(&self.parts);
+        groups.map(|((name, values), part)| self.group(name, values, part)).collect()
+    }
+
+    fn group(&self, name: &str, values: &[Option<VertexLight>], part: &mix::Part) -> GroupLight {
+        let value = |(sum, own): (&Option<VertexLight>, &Option<VertexLight>)| {
+            let standing = sum.as_ref()?.standing;
+            Some(VertexLight { standing, ..own.unwrap_or(VertexLight::NOTHING) })
+        };
+        let unshot = part.map.provenance.unshot;
+        let unshot = unshot.map(|of| Unshot { ambient_lx: of.ambient_lx * part.dimming, ..of });
+        let map = IlluminationMap {
+            elements: self.map.elements.clone(),
+            values: self.map.values.iter().zip(values).map(value).collect(),
+            provenance: Provenance { unshot, ..self.map.provenance.clone() },
+        };
+        GroupLight { name: name.to_owned(), map }
     }
 
     /// Whether another map is of the same surfaces.

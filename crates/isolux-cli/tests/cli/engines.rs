@@ -38,6 +38,8 @@ fn what_makes_no_sense_is_refused() {
         (&["-o", "o.glb", "--white", "500"], "500cd/m2"),
         (&["-o", "o.exr", "--white", "500cd/m2"], "leave it out"),
         (&["-o", "m.glb", "--target", "three"], "another name"),
+        (&["-o", "o.glb", "--layout", "texels", "--lux"], "leave it out"),
+        (&["-o", "o.csv", "--lux"], "leave it out"),
     ] {
         let ran = home.run(&[&["export", "m.glb"], arguments].concat());
         assert_eq!(ran.code, 2, "{arguments:?}: {ran:?}");

@@ -114,3 +114,66 @@ fn finished_groups_are_not_solved_again() {
     assert!(ran.code == 0 && ran.err.contains("map.left.glb: is complete already"), "{ran:?}");
     assert!(bytes("map.glb") == whole, "the sums differ");
 }
+
+#[test]
+fn lux_is_exported_with_that_of_each_group() {
+    let home = solved();
+    let ran = home.run(&["export", "map.glb", "-o", "light.glb", "--lux", "--json"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    assert_eq!(ran.json()["groups"], serde_json::json!(["left", "right/low"]));
+    let light = Light::read(&home, "light.glb");
+    let whole = light.numbers("_ILLUMINANCE_LX");
+    let [left, right] = ["_GROUP_0_LX", "_GROUP_1_LX"].map(|name| light.numbers(name));
+    assert!(whole.len() > 1000 && left.iter().chain(&right).all(|lx| *lx >= 0.0));
+    for ((all, left), right) in whole.iter().zip(&left).zip(&right) {
+        // Three roundings to 32 bits.
+        assert!(
+            (all - left - right).abs() <= 2.0 * f32::EPSILON * all,
+            "{all} of {left} and {right}"
+        );
+    }
+    let errors = light.numbers("_STDERR_LX");
+    let [left, right] =
+        ["_GROUP_0_STDERR_LX", "_GROUP_1_STDERR_LX"].map(|name| light.numbers(name));
+    for ((all, left), right) in errors.iter().zip(&left).zip(&right) {
+        assert!(
+            (all - left.hypot(*right)).abs() <= 2.0 * f32::EPSILON * all,
+            "{all} of {left} and {right}"
+        );
+    }
+    let alone = home.run(&["export", "map.left.glb", "-o", "alone.glb", "--lux", "--json"]);
+    assert_eq!(alone.json()["groups"], serde_json::json!([]));
+    assert!(
+        home.run(&["export", "map.glb", "-o", "bare.glb", "--json"]).json()["groups"].is_null()
+    );
+}
+
+/// A file with light at vertices.
+struct Light {
+    json: serde_json::Value,
+    binary: Vec<u8>,
+}
+
+impl Light {
+    fn read(home: &Home, name: &str) -> Self {
+        let bytes = std::fs::read(home.path(name)).unwrap();
+        let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+        let json = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
+        Self { json, binary: bytes[28 + length..].to_vec() }
+    }
+
+    /// An attribute of all primitives; each of them says how it reflects.
+    fn numbers(&self, attribute: &str) -> Vec<f32> {
+        let at = |value: &serde_json::Value| value.as_u64().unwrap() as usize;
+        let meshes = self.json["meshes"].as_array().unwrap().iter();
+        let primitives = meshes.flat_map(|mesh| mesh["primitives"].as_array().unwrap());
+        let bytes = primitives.flat_map(|primitive| {
+            assert_eq!(primitive["extras"]["reflectance"], serde_json::json!([0.5, 0.5, 0.5]));
+            let accessor = &self.json["accessors"][at(&primitive["attributes"][attribute])];
+            let view = &self.json["bufferViews"][at(&accessor["bufferView"])];
+            self.binary[at(&view["byteOffset"])..][..at(&view["byteLength"])].to_vec()
+        });
+        let bytes: Vec<u8> = bytes.collect();
+        bytes.as_chunks::<4>().0.iter().map(|word| f32::from_le_bytes(*word)).collect()
+    }
+}

@@ -8,6 +8,7 @@ use super::value_arrays::storable;
 use isolux::map::VertexLight;
 use isolux::scene::Finish;
 use isolux::units::Rgb;
+use std::collections::BTreeMap;
 
 const FLOAT: u32 = 5126;
 const UNSIGNED_SHORT: u32 = 5123;
@@ -46,28 +47,47 @@ impl Sink<'_> {
     }
 
     /// Writes what a map says about the vertices of a surface: their colour and the rest.
-    pub(super) fn light(
+    pub(super) fn coloured_light(
         &mut self,
         values: &[Option<VertexLight>],
         (finish, preview): (&Finish, &Preview),
     ) -> (u32, LightAttributes) {
         let values = shown(values);
-        let of = |f: fn(&VertexLight) -> Rgb| -> Vec<[f32; 3]> {
-            values
-                .iter()
-                .map(|v| v.as_ref().map_or([0.0; 3], |v| f(v).0.map(|c| c as f32)))
-                .collect()
-        };
-        let errors: Vec<[f32; 1]> = values.iter().map(|v| [shown_error(v.as_ref())]).collect();
         let colours =
             values.iter().map(|v| preview.colour(luminance_cd_m2(finish, seen_lx(v.as_ref()))));
         let colour = self.colours(&colours.collect::<Vec<_>>());
-        let light = LightAttributes {
-            illuminance_lx: self.floats(&of(VertexLight::total_lx), "VEC3"),
-            direct_lx: self.floats(&of(|v| v.direct_lx), "VEC3"),
-            standard_error_lx: self.floats(&errors, "SCALAR"),
+        (colour, self.light(&values, &[]))
+    }
+
+    /// Writes the light at the vertices of a surface, and that of each group; all values are [`shown`] ones.
+    pub(super) fn light(
+        &mut self,
+        values: &[Option<VertexLight>],
+        groups: &[Vec<Option<VertexLight>>],
+    ) -> LightAttributes {
+        let mut light = LightAttributes {
+            illuminance_lx: self.rgb_lx(values, VertexLight::total_lx),
+            direct_lx: self.rgb_lx(values, |v| v.direct_lx),
+            standard_error_lx: self.errors_lx(values),
+            groups: BTreeMap::new(),
         };
-        (colour, light)
+        for (k, values) in groups.iter().enumerate() {
+            let lx = self.rgb_lx(values, VertexLight::total_lx);
+            light.groups.insert(format!("_GROUP_{k}_LX"), lx);
+            light.groups.insert(format!("_GROUP_{k}_STDERR_LX"), self.errors_lx(values));
+        }
+        light
+    }
+
+    fn rgb_lx(&mut self, values: &[Option<VertexLight>], of: fn(&VertexLight) -> Rgb) -> u32 {
+        let row =
+            |v: &Option<VertexLight>| v.as_ref().map_or([0.0; 3], |v| of(v).0.map(|c| c as f32));
+        self.floats(&values.iter().map(row).collect::<Vec<_>>(), "VEC3")
+    }
+
+    fn errors_lx(&mut self, values: &[Option<VertexLight>]) -> u32 {
+        let errors: Vec<[f32; 1]> = values.iter().map(|v| [shown_error(v.as_ref())]).collect();
+        self.floats(&errors, "SCALAR")
     }
 
     /// Writes the places of vertices in a lightmap.

@@ -1,6 +1,7 @@
 //! The part of glTF 2.0 that maps are written in, as written.
 
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// `target` of a buffer view of vertex attributes, of indices.
 pub(super) const VERTICES: u32 = 34962;
@@ -133,6 +134,15 @@ pub(super) struct Primitive {
     pub(super) attributes: Attributes,
     pub(super) indices: u32,
     pub(super) material: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extras: Option<Reflection>,
+}
+
+/// How light becomes luminance: `reflectance E / pi + luminance_cd_m2`, times the texture.
+#[derive(Serialize)]
+pub(super) struct Reflection {
+    pub(super) reflectance: [f64; 3],
+    pub(super) luminance_cd_m2: [f64; 3],
 }
 
 #[derive(Serialize)]
@@ -160,6 +170,9 @@ pub(super) struct LightAttributes {
     pub(super) direct_lx: u32,
     #[serde(rename = "_STDERR_LX")]
     pub(super) standard_error_lx: u32,
+    /// Light and standard error of each group, by the names of the attributes.
+    #[serde(flatten)]
+    pub(super) groups: BTreeMap<String, u32>,
 }
 
 #[derive(Serialize)]

@@ -28,7 +28,7 @@ pub use preview::Preview;
 pub use read::{MapFile, is_export, is_map, read, read_with_texels};
 pub(crate) use texels::Parts;
 pub use texels::{TexelFile, write_texels};
-pub use vertices::{VertexColours, VertexFile, write_vertices};
+pub use vertices::{GroupLight, VertexColours, VertexFile, write_vertices};
 pub use write::write;
 
 /// A map that does not fit into a file.

@@ -130,7 +130,12 @@ fn patch(
 /// Luminance of a surface without its texture, cd/m2: what it emits and `rho E / pi`, gloss counted
 /// as if it were diffuse.
 pub(super) fn luminance_cd_m2(finish: &Finish, illuminance_lx: Rgb) -> Rgb {
-    (finish.diffuse.colour + finish.glossy_f0()) * illuminance_lx / PI + finish.luminance_cd_m2
+    reflectance(finish) * illuminance_lx / PI + finish.luminance_cd_m2
+}
+
+/// Without its texture, gloss counted as if it were diffuse.
+pub(super) fn reflectance(finish: &Finish) -> Rgb {
+    finish.diffuse.colour + finish.glossy_f0()
 }
 
 #[cfg(test)]

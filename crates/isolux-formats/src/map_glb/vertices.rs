@@ -6,9 +6,9 @@
 use super::attributes::{Sink, seen_lx, shown};
 use super::bytes::Bytes;
 use super::display::{self, Layer, Surface};
-use super::document::{Objects, Primitive};
+use super::document::{Objects, Primitive, Reflection};
 use super::looks::Looks;
-use super::preview::luminance_cd_m2;
+use super::preview::{luminance_cd_m2, reflectance};
 use super::record::Origin;
 use super::write::{add_node, add_textures, pack};
 use super::{MapTooLarge, Preview, backs, nodes};
@@ -35,6 +35,17 @@ pub struct VertexFile<'a> {
     pub target: Target,
     /// The luminance whose colour is 1 where colours are in proportion, cd/m2; `None` leaves it to the map.
     pub white_cd_m2: Option<f64>,
+    /// Lux beside the colours, those of each of these groups, too; `None` leaves them out.
+    pub lux: Option<&'a [GroupLight]>,
+}
+
+/// The part of the light of a map that belongs to a group of luminaires.
+#[derive(Clone, Debug)]
+pub struct GroupLight {
+    /// The group.
+    pub name: String,
+    /// Its light, undimmed, on the same elements; it is known where that of the map is.
+    pub map: IlluminationMap,
 }
 
 /// A file, and what became of the light in it.
@@ -56,18 +67,21 @@ pub struct VertexColours {
 
 /// `extras` of the document.
 #[derive(Serialize)]
-struct Extras {
-    isolux_vertices: Note,
+struct Extras<'a> {
+    isolux_vertices: Note<'a>,
 }
 
 /// What those need who read the file without its manual.
 #[derive(Serialize)]
-struct Note {
+struct Note<'a> {
     target: &'static str,
     #[serde(flatten)]
     convention: VertexConvention,
     exposure_m2_cd: f64,
     white_cd_m2: f64,
+    /// Names of the groups of luminaires whose light the attributes hold; none without lux.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    groups: Option<Vec<&'a str>>,
     #[serde(flatten)]
     origin: Origin,
 }
@@ -100,6 +114,7 @@ pub fn write_vertices(file: &VertexFile<'_>) -> Result<VertexColours, MapTooLarg
         convention,
         exposure_m2_cd: made.exposure_m2_cd,
         white_cd_m2: made.white_cd_m2,
+        groups: file.lux.map(|groups| groups.iter().map(|group| group.name.as_str()).collect()),
         origin: Origin::of(map),
     };
     // Without lights: all of theirs is in the colours.
@@ -202,6 +217,8 @@ fn add_meshes(
     made: &mut VertexColours,
 ) {
     let distance_m = backs::distance_m(file.scene, file.target);
+    let groups = file.lux.unwrap_or_default().iter();
+    let groups: Vec<_> = groups.map(|group| display::surfaces(file.scene, &group.map)).collect();
     let mut looks = Looks::default();
     let mut current = None;
     for (layer, mut surface) in surfaces {
@@ -224,12 +241,22 @@ fn add_meshes(
                 ColourKind::ToneMapped => sink.colours(&colours),
             });
         }
+        let lit = finish.filter(|_| file.lux.is_some());
+        attributes.light = lit.map(|_| {
+            let of_groups = groups.iter().map(|surfaces| shown(&surfaces[&layer].values));
+            sink.light(&shown(&surface.values), &of_groups.collect::<Vec<_>>())
+        });
+        let extras = lit.map(reflection);
         let texture = finish.and_then(|f| f.diffuse.texture).filter(|_| !surface.uvs.is_empty());
         let material = looks.of((file.scene, &|l| exposure.colour(l)), (layer, texture), objects);
         if let Some(mesh) = objects.meshes.last_mut() {
-            mesh.primitives.push(Primitive { attributes, indices, material });
+            mesh.primitives.push(Primitive { attributes, indices, material, extras });
         }
     }
+}
+
+fn reflection(finish: &Finish) -> Reflection {
+    Reflection { reflectance: reflectance(finish).0, luminance_cd_m2: finish.luminance_cd_m2.0 }
 }
 
 /// Colours of the vertices of a surface, without its texture, which the consumer multiplies them with.

@@ -116,12 +116,12 @@ fn primitive(
     let material = &scene.materials()[layer.material as usize];
     let finish = material.finish(layer.back);
     if let Some(finish) = finish.filter(|_| layer.mapped) {
-        let (colour, light) = sink.light(&surface.values, (finish, preview));
+        let (colour, light) = sink.coloured_light(&surface.values, (finish, preview));
         (attributes.colour, attributes.light) = (Some(colour), Some(light));
     }
     let texture = finish.and_then(|f| f.diffuse.texture).filter(|_| !surface.uvs.is_empty());
     let material = looks.of((scene, &|l| preview.colour(l)), (layer, texture), objects);
-    Primitive { attributes, indices, material }
+    Primitive { attributes, indices, material, extras: None }
 }
 
 /// Writes all arrays and says what they are.

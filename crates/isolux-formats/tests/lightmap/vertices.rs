@@ -54,7 +54,7 @@ impl Written {
         (scene, map): (&Scene, &IlluminationMap),
         (target, white_cd_m2): (Target, Option<f64>),
     ) -> Self {
-        let file = VertexFile { scene, map, preview: PREVIEW, target, white_cd_m2 };
+        let file = VertexFile { scene, map, preview: PREVIEW, target, white_cd_m2, lux: None };
         let made = write_vertices(&file).unwrap();
         assert_eq!(made, write_vertices(&file).unwrap());
         let bytes = &made.bytes;

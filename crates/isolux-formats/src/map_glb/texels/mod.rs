@@ -154,7 +154,7 @@ fn add_meshes(file: &TexelFile<'_>, pages: &[Page], (objects, bytes): (&mut Obje
         let is_textured = !surface.uvs.is_empty();
         let material = materials.of(file, (layer, page, is_textured), objects);
         if let Some(mesh) = objects.meshes.last_mut() {
-            mesh.primitives.push(Primitive { attributes, indices, material });
+            mesh.primitives.push(Primitive { attributes, indices, material, extras: None });
         }
     }
 }
