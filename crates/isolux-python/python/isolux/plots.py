@@ -28,6 +28,8 @@ _MARKS = "osD^vP"
 _PALENESS = 0.5
 #: Lines of equal value at most.
 _LINES = 8
+#: The greatest error on an axis over the least, at least: three round numbers stand on it.
+_LEAST_SPAN = 10.0
 #: Numbers of a grid across the picture at most: more would run into each other.
 _NUMBERS = 16
 
@@ -74,7 +76,7 @@ def errors(
     for history, colour in zip(every, _colours()):
         along, error = history.array(key), history.array("error")
         known = np.isfinite(error) & (along > 0)
-        ax.plot(along[known], error[known], color=colour, label=history.label or None)
+        ax.plot(along[known], error[known], ".-", color=colour, label=history.label or None)
         targets = {state.target for state in history.states if state.target is not None}
         for target in targets:
             ax.axhline(target, color=colour, linestyle=(0, (4, 3)), linewidth=1)
@@ -139,7 +141,8 @@ def grid(
     inside = levels[(levels > lux.min()) & (levels < lux.max())]
     if min(nx, ny) > 1 and len(inside):
         drawn = ax.contour(u, v, lux, levels=inside, colors="0.15", linewidths=1)
-        ax.clabel(drawn, fmt="%g lx", fontsize=8)
+        for words in ax.clabel(drawn, fmt="%g lx", fontsize=8):
+            words.set(bbox={"fc": "white", "ec": "none", "pad": 1, "alpha": 0.9}, zorder=5)
     if numbers:
         _numbers(ax, u, v, lux)
     ax.set_aspect("equal")
@@ -203,6 +206,10 @@ def _by_error(ax: Any, along: str, error: str) -> None:
     if along != "rays":
         ax.xaxis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
         ax.xaxis.set_major_formatter(plain)
+    low, high = ax.get_ylim()
+    if high < _LEAST_SPAN * low:
+        middle = (low * high) ** 0.5
+        ax.set_ylim(middle / _LEAST_SPAN**0.5, middle * _LEAST_SPAN**0.5)
     ax.grid(color="0.9")
     ax.set_axisbelow(True)
 
@@ -218,7 +225,7 @@ def _numbers(ax: Any, u: Any, v: Any, lux: Any) -> None:
         for column in range(every // 2, len(u), every):
             if lux[row, column] is not np.ma.masked:
                 text = f"{lux[row, column]:.0f}" if lux[row, column] >= 10 else f"{lux[row, column]:.1f}"
-                ax.text(u[column], v[row], text, ha="center", va="center", fontsize=7)
+                ax.text(u[column], v[row], text, ha="center", va="center", fontsize=7, color="0.3")
 
 
 def _heading(of: Grid) -> str:

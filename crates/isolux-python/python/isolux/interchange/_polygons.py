@@ -15,9 +15,9 @@ _TOUCHING = 1e-9
 
 def ring(boundary: Points, holes: Sequence[Points]) -> Points:
     """The boundary with a seam to every hole, gone along both ways: (n, 3). The front is that of the boundary."""
+    across, up = _plane(boundary)
     if not holes:
         return boundary
-    across, up = _plane(boundary)
     flat = lambda points: np.stack([points @ across, points @ up], axis=1)  # noqa: E731
     joined = boundary
     left = [hole if _area(flat(hole)) < 0 else hole[::-1] for hole in holes]
