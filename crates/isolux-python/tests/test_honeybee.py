@@ -14,88 +14,20 @@ from conftest import REPOSITORY
 from isolux import study
 from isolux.interchange import honeybee, radiance
 from isolux.interchange._polygons import ring
+from models import (
+    box,
+    by_material,
+    face,
+    model,
+    plastic,
+    quad,
+    sensors,
+    square,
+    with_window_and_door,
+)
 
 #: Maps are asked for 1 %; points may be off by three times that.
 MAP = 0.03
-
-
-def model(faces: list[Any], **more: Any) -> dict[str, Any]:
-    """A model with one room, by the schema."""
-    radiance = {"type": "ModelRadianceProperties", **more.pop("radiance", {})}
-    return {
-        "type": "Model",
-        "identifier": "model",
-        "units": "Meters",
-        "rooms": [{"type": "Room", "identifier": "room", "faces": faces, **more.pop("room", {})}],
-        "properties": {"type": "ModelProperties", "radiance": radiance},
-        **more,
-    }
-
-
-def face(name: str, kind: str, corners: Any, modifier: str | None = None, **more: Any) -> Any:
-    """A face; its normal points out of the room."""
-    own = {"type": "FaceRadiancePropertiesAbridged"} | ({"modifier": modifier} if modifier else {})
-    return {
-        "type": "Face",
-        "identifier": name,
-        "face_type": kind,
-        "geometry": {"type": "Face3D", "boundary": corners},
-        "boundary_condition": {"type": "Outdoors"},
-        "properties": {"type": "FacePropertiesAbridged", "radiance": own},
-        **more,
-    }
-
-
-def box(width: float, depth: float, height: float, scale: float = 1.0) -> list[Any]:
-    """The faces of a room."""
-    corner = [(x, y, z) for z in (0, height) for y in (0, depth) for x in (0, width)]
-    faces = {
-        ("floor", "Floor"): (0, 2, 3, 1),
-        ("ceiling", "RoofCeiling"): (4, 5, 7, 6),
-        ("south", "Wall"): (0, 1, 5, 4),
-        ("north", "Wall"): (3, 2, 6, 7),
-        ("west", "Wall"): (2, 0, 4, 6),
-        ("east", "Wall"): (1, 3, 7, 5),
-    }
-    return [
-        face(name, kind, [[scale * c for c in corner[k]] for k in corners])
-        for (name, kind), corners in faces.items()
-    ]
-
-
-def plastic(name: str, *rgb: float) -> dict[str, Any]:
-    """A diffuse modifier."""
-    return {"type": "Plastic", "identifier": name} | {
-        f"{c}_reflectance": r for c, r in zip("rgb", rgb)
-    }
-
-
-def sensors(*places: tuple[float, ...]) -> dict[str, Any]:
-    """A grid of sensors: x y z dx dy dz each."""
-    return {
-        "type": "SensorGrid",
-        "identifier": "desk",
-        "display_name": "Desk",
-        "room_identifier": "room",
-        "sensors": [{"type": "Sensor", "pos": p[:3], "dir": p[3:]} for p in places],
-    }
-
-
-def quad(corners: Any, modifier: str, **more: Any) -> dict[str, Any]:
-    """A shade."""
-    own = {"type": "ShadeRadiancePropertiesAbridged", "modifier": modifier}
-    return {
-        "type": "Shade",
-        "identifier": "shade",
-        "geometry": {"type": "Face3D", "boundary": corners},
-        "properties": {"type": "ShadePropertiesAbridged", "radiance": own},
-        **more,
-    }
-
-
-def square(z: float, half: float = 0.05) -> list[list[float]]:
-    """A horizontal square that faces down."""
-    return [[-half, -half, z], [-half, half, z], [half, half, z], [half, -half, z]]
 
 
 @pytest.mark.filterwarnings("ignore::isolux.IsoluxWarning")
@@ -156,28 +88,13 @@ def isotropic(candela: float) -> str:
 
 def test_windows_and_doors_are_holes_with_panes() -> None:
     faces = box(4, 5, 3)
-    south = next(one for one in faces if one["identifier"] == "south")
-    pane = {"type": "Aperture", "identifier": "pane", "boundary_condition": {"type": "Outdoors"}}
-    pane["geometry"] = {"type": "Face3D", "boundary": [[1, 0, 1], [2, 0, 1], [2, 0, 2], [1, 0, 2]]}
-    door = {"type": "Door", "identifier": "door", "boundary_condition": {"type": "Outdoors"}}
-    door["geometry"] = {"type": "Face3D", "boundary": [[3, 0, 0], [3.8, 0, 0], [3.8, 0, 2], [3, 0, 2]]}
-    south["apertures"], south["doors"] = [pane], [door]
+    with_window_and_door(faces)
     scene = honeybee.from_dict(model(faces)).scene
     areas = by_material(scene)
     assert areas["generic_wall_0.50"] == pytest.approx(2 * 12 + 2 * 15 - 1 - 1.6)
     assert areas["generic_exterior_window_vis_0.64"] == pytest.approx(1)
     assert areas["generic_opaque_door_0.50"] == pytest.approx(1.6)
     assert areas["generic_floor_0.20"] == areas["generic_ceiling_0.80"] == pytest.approx(20)
-
-
-def by_material(scene: isolux.Scene) -> dict[str, float]:
-    """The area of each material, m2."""
-    edges = scene.triangles[:, 1:] - scene.triangles[:, :1]
-    areas = 0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
-    return {
-        name: float(areas[scene.triangle_materials == number].sum())
-        for number, name in enumerate(scene.materials)
-    }
 
 
 def test_modifiers_come_from_the_face_the_room_and_the_model() -> None:

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from isolux._errors import InputError
+
 if TYPE_CHECKING:
     from isolux._map import Map
 
@@ -60,10 +62,24 @@ def page(m: Map, finer: float | None = None) -> str:
         return Path(path).read_text(encoding="utf-8")
 
 
-def picture(m: Map) -> bytes:
-    """A view of the map as PNG, interpolated, which is fast."""
+def picture(m: Map) -> bytes | None:
+    """A view of the map as PNG, interpolated, which is fast: from inside, or from outside where nothing is seen from there."""
+    try:
+        return _drawn(m)
+    except InputError:
+        pass
+    low, high = m.scene.bounds_m
+    away = np.array((-0.5, -0.8, 0.6) if m.scene.up == "z" else (-0.5, 0.6, 0.8))
+    middle = 0.5 * (low + high)
+    try:
+        return _drawn(m, eye=middle + np.linalg.norm(high - low) * away, target=middle)
+    except InputError:
+        return None
+
+
+def _drawn(m: Map, **view: Any) -> bytes:
     width, height = _PICTURE
-    return _png(m.render(width=width, height=height, interpolated=True))
+    return _png(m.render(width=width, height=height, interpolated=True, **view))
 
 
 def _png(image: npt.NDArray[np.uint8]) -> bytes:
@@ -103,7 +119,9 @@ class View:
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, Any], dict[str, Any]]:
         width, height = _PICTURE
         about = {"image/png": {"width": width, "height": height}}
-        bundle: dict[str, Any] = {"text/plain": self._text, "image/png": self._picture}
+        bundle: dict[str, Any] = {"text/plain": self._text}
+        if self._picture:
+            bundle["image/png"] = self._picture
         if self._widget is None:
             return bundle | {"text/html": self._frame()}, about
         shown = self._widget._repr_mimebundle_()
