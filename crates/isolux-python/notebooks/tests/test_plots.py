@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import io
+import re
 import sys
 from typing import Any
 
@@ -12,6 +13,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from conftest import REPOSITORY
 from isolux import plots, study
 
 matplotlib.use("agg")
@@ -143,3 +145,13 @@ def test_without_anywidget_the_page_is_there(
     _view._widget_class.cache_clear()
     assert "text/html" in lit.view()._repr_mimebundle_()[0]
     _view._widget_class.cache_clear()
+
+
+def test_the_examples_of_the_book_run() -> None:
+    text = (REPOSITORY / "docs" / "book" / "python-notebooks.md").read_text(encoding="utf-8")
+    examples = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    assert len(examples) == 3
+    names: dict[str, Any] = {}
+    for example in examples:
+        exec(compile(example, "python-notebooks.md", "exec"), names)
+    assert len(names["table"]) == 81
