@@ -109,7 +109,9 @@ def _png(image: npt.NDArray[np.uint8]) -> bytes:
 class View:
     """A map in a notebook; see :meth:`isolux.Map.view`."""
 
-    def __init__(self, m: Map, height: int = HEIGHT, live: bool = True, finer: float = FINER_S) -> None:
+    def __init__(
+        self, m: Map, height: int = HEIGHT, live: bool = True, finer: float = FINER_S
+    ) -> None:
         self._page = page(m, finer)
         self._picture = picture(m)
         self._height = height
@@ -150,7 +152,7 @@ def _widget_class() -> Any:
     except ImportError:
         return None
 
-    class WalkThrough(anywidget.AnyWidget):  # type: ignore[misc]
+    class WalkThrough(anywidget.AnyWidget):
         """The walk-through of a map."""
 
         _esm = _SCRIPT

@@ -124,7 +124,7 @@ def grid(
     left white. Axes are metres along the sides of the grid. ``numbers=False`` leaves out the values; large grids show every second or third.
     """
     colouring = needed("matplotlib.colors")
-    lux = np.ma.masked_invalid(of.values["illuminance_lx"])
+    lux = _known(of.values["illuminance_lx"])
     if not lux.count():
         raise ValueError(f"no value is known at any point of the grid {of.name!r}")
     ax = _axes(ax)
@@ -167,7 +167,7 @@ def false_colour(
     ``m.render(luminance=True) @ (0.2126, 0.7152, 0.0722)`` are luminances in cd/m2.
     """
     colouring = needed("matplotlib.colors")
-    values = np.ma.masked_invalid(np.asarray(lux, dtype=np.float64))
+    values = _known(lux)
     positive = values[values > 0] if logarithmic else values
     if not positive.count():
         raise ValueError("no value is known; a logarithmic scale needs one above 0")
@@ -175,11 +175,19 @@ def false_colour(
     low, high = limits or (low, float(values.max()))
     norm = colouring.LogNorm if logarithmic else colouring.Normalize
     ax = _axes(ax)
-    image = ax.imshow(values, cmap=colour_map(colours).with_extremes(bad="0.6"), norm=norm(low, high))
+    shown = colour_map(colours).with_extremes(bad="0.6")
+    image = ax.imshow(values, cmap=shown, norm=norm(low, high))
     ax.set_xticks([])
     ax.set_yticks([])
     ax.figure.colorbar(image, ax=ax, label=label, shrink=0.8)
     return ax
+
+
+def _known(lux: npt.ArrayLike) -> Any:
+    """Numbers, with what is not known masked."""
+    # Its stubs leave it without types.
+    masked: Any = np.ma
+    return masked.masked_invalid(np.asarray(lux, dtype=np.float64))
 
 
 def _axes(ax: Any) -> Any:
@@ -223,8 +231,9 @@ def _numbers(ax: Any, u: Any, v: Any, lux: Any) -> None:
     every = max(1, -(-max(lux.shape) // _NUMBERS))
     for row in range(every // 2, len(v), every):
         for column in range(every // 2, len(u), every):
-            if lux[row, column] is not np.ma.masked:
-                text = f"{lux[row, column]:.0f}" if lux[row, column] >= 10 else f"{lux[row, column]:.1f}"
+            value = lux[row, column]
+            if value is not np.ma.masked:
+                text = f"{value:.0f}" if value >= 10 else f"{value:.1f}"
                 ax.text(u[column], v[row], text, ha="center", va="center", fontsize=7, color="0.3")
 
 

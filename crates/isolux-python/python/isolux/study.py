@@ -67,5 +67,5 @@ def errors(m: Map, case: str) -> Errors:
 def _places(
     rows: npt.NDArray[np.float64], weights: npt.NDArray[np.float64], letters: tuple[str, ...]
 ) -> Exact:
-    parts = (rows[:, :3], rows[:, 3:6], rows[:, 6], weights)
-    return Exact(*(fixed(part.copy()) for part in parts), letters)
+    points, normals, lux = rows[:, :3], rows[:, 3:6], rows[:, 6]
+    return Exact(fixed(points), fixed(normals), fixed(lux), fixed(weights), letters)

@@ -18,7 +18,10 @@ def ring(boundary: Points, holes: Sequence[Points]) -> Points:
     across, up = _plane(boundary)
     if not holes:
         return boundary
-    flat = lambda points: np.stack([points @ across, points @ up], axis=1)  # noqa: E731
+
+    def flat(points: Points) -> Points:
+        return np.stack([points @ across, points @ up], axis=1)
+
     joined = boundary
     left = [hole if _area(flat(hole)) < 0 else hole[::-1] for hole in holes]
     while left:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from isolux._grid import Grid
 from isolux._map import Map
 from isolux._optional import needed
-from isolux._readings import Array, Readings
+from isolux._readings import Array
 
 _WORDS = {
     "illuminance_lx": "illuminance",
@@ -36,7 +37,7 @@ def map_frame(m: Map) -> Any:
     return frame
 
 
-def _frame(positions: Array, values: Readings, names: list[str]) -> Any:
+def _frame(positions: Array, values: npt.NDArray[Any], names: list[str]) -> Any:
     columns = {f"{axis}_m": positions[:, k] for k, axis in enumerate("xyz")}
     columns |= {name: np.asarray(values[name]) for name in names}
     return needed("pandas").DataFrame(columns)
