@@ -26,7 +26,7 @@ class Exact:
     normals: Array
     #: (n,), in lx.
     illuminance_lx: Array
-    #: What each counts in a mean.
+    #: What each counts in a mean; all add up to 1.
     weights: Array
     #: Letters of the points of the study; none on the grid.
     letters: tuple[str, ...] = ()
@@ -49,7 +49,8 @@ def points(case: str) -> Exact:
     """The points of the study: A to F of ``"cube"``, the middle of ``"sphere"``. Values are computed to more digits than the study has."""
     rows, named = _native.exact(case)
     letters = tuple(letter for letter, _ in named)
-    return _places(rows[len(rows) - len(named) :], np.array([w for _, w in named]), letters)
+    weights = np.array([weight for _, weight in named])
+    return _places(rows[len(rows) - len(named) :], weights / weights.sum(), letters)
 
 
 def grid(case: str) -> Exact:
