@@ -4,9 +4,9 @@ import { chromium } from 'playwright-core';
 
 const BROWSERS = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
 // Software rendering is the same on every machine.
-const FLAGS = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--force-color-profile=srgb'];
+export const FLAGS = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--force-color-profile=srgb'];
 // What Chromium says of its own graphics.
-const NOT_OURS = /GL Driver Message|software WebGL|GPU stall|extension not supported/;
+export const NOT_OURS = /GL Driver Message|software WebGL|GPU stall|extension not supported/;
 /** Until something of a page has come about; a machine without a graphics card draws in software. */
 export const PATIENCE_MS = 60_000;
 const POLLING_MS = 50;

@@ -39,6 +39,7 @@ cargo xtask loader three  of it, the loader of three.js in Chromium, beside what
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask python  of it, the wheel of the package for Python, its tests and its types
+cargo xtask python --notebooks  of --all, the example notebooks, and exchange with other packages
 cargo xtask compared      of --all, all systems by error against time, as short as it can be
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
@@ -78,6 +79,7 @@ fn main() -> ExitCode {
         ["loader", "blender"] => loaders::blender(root),
         ["lamps"] => lamps::run(root),
         ["python"] => python::run(root),
+        ["python", "--notebooks"] => python::notebooks(root),
         ["golden", ref arguments @ ..] => golden::run(root, arguments),
         ["reliability", ref arguments @ ..] => reliability::run(root, arguments),
         ["colours"] => colours::run(root),

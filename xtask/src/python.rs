@@ -2,8 +2,12 @@
 
 use crate::judge::optional;
 use crate::peers::{python_of_judge, wait};
+use crate::worlds::missing_for_pages;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// Those of `crates/isolux-python/notebooks`.
+const NOTEBOOKS: [&str; 3] = ["office", "cube", "positions"];
 
 /// Builds the wheel as tests are built, installs it into a folder of its own, and has pytest, mypy and stubtest look at it. Without Python
 /// or a package index it is left out, except where `CI` is `true`.
@@ -11,14 +15,8 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
     let package = root.join("crates").join("isolux-python");
     let folder = root.join("target").join("python");
     optional(python_of_judge(&package.join("tests"), &folder), |python| {
-        let wheel = wheel(&package, &folder.join("wheels"), &python)?;
-        let module = |name: &str| {
-            let mut module = Command::new(&python);
-            module.current_dir(&package).args(["-m", name]);
-            module
-        };
-        let install = ["install", "--quiet", "--no-deps", "--force-reinstall"];
-        wait(module("pip").args(install).arg(&wheel), "pip install of the wheel")?;
+        install(&package, &folder, &python)?;
+        let module = |name: &str| module(&python, &package, name);
         wait(&mut module("pytest"), "pytest")?;
         wait(module("mypy").args(["python/isolux", "tests"]), "mypy")?;
         wait(
@@ -32,6 +30,53 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
         )?;
         Ok("the package for Python passes its tests and is of its types".to_owned())
     })
+}
+
+/// The example notebooks, run and made pages, and tests with all the packages that maps are exchanged with. Left out as [`run`] is.
+pub(crate) fn notebooks(root: &Path) -> Result<String, String> {
+    let package = root.join("crates").join("isolux-python");
+    let (source, folder) =
+        (package.join("notebooks"), root.join("target").join("python-notebooks"));
+    optional(python_of_judge(&source, &folder), |python| {
+        install(&package, &folder, &python)?;
+        wait(module(&python, &package, "pytest").arg("notebooks/tests"), "pytest")?;
+        let pages = folder.join("pages");
+        let _ = std::fs::remove_dir_all(&pages);
+        let mut convert = module(&python, &source, "nbconvert");
+        convert.args(["--execute", "--to", "html", "--output-dir"]).arg(&pages);
+        for name in NOTEBOOKS {
+            convert.arg(format!("{name}.ipynb"));
+        }
+        wait(&mut convert, "nbconvert")?;
+        let shown = NOTEBOOKS.map(|name| pages.join(format!("{name}.html")));
+        let drawn = walked(root, &shown)?;
+        Ok(format!("the notebooks run, into {}; {drawn}", pages.display()))
+    })
+}
+
+/// Whether the walk-throughs in pages draw and read.
+fn walked(root: &Path, pages: &[PathBuf]) -> Result<&'static str, String> {
+    let checks = root.join("checks");
+    if missing_for_pages(&checks)?.is_some() {
+        return Ok("there is no browser to look at them");
+    }
+    let mut node = Command::new("node");
+    node.arg("notebooks.mjs").args(pages).current_dir(&checks);
+    wait(&mut node, "checks/notebooks.mjs")?;
+    Ok("their walk-throughs draw and read")
+}
+
+fn module(python: &Path, folder: &Path, name: &str) -> Command {
+    let mut module = Command::new(python);
+    module.current_dir(folder).args(["-m", name]);
+    module
+}
+
+/// Builds the wheel and installs it.
+fn install(package: &Path, folder: &Path, python: &Path) -> Result<(), String> {
+    let wheel = wheel(package, &folder.join("wheels"), python)?;
+    let words = ["install", "--quiet", "--no-deps", "--force-reinstall"];
+    wait(module(python, package, "pip").args(words).arg(&wheel), "pip install of the wheel")
 }
 
 /// Builds the wheel; where it is.

@@ -34,7 +34,7 @@ fn every_change(all: bool) -> [Step; 10] {
 }
 
 /// What takes longer or changes less, and must hold before a release.
-const ALL: [Step; 7] = [
+const ALL: [Step; 8] = [
     ("the ray kernel under the address sanitizer", sanitize::run),
     ("a billion rays in a closed hall", |root| {
         let kernel = ["test", "--release", "--quiet", "--package", "isolux-geometry"];
@@ -44,6 +44,7 @@ const ALL: [Step; 7] = [
     ("outside judge of the add-on of Blender: Blender", loaders::blender),
     ("outside judge of the loader of Bevy: its crates", loaders::bevy),
     ("golden maps", |root| golden::run(root, &[])),
+    ("example notebooks of Python", python::notebooks),
     ("validation against exact values", validate),
 ];
 

@@ -3,6 +3,7 @@
 
 mod arrays;
 mod error;
+mod exact;
 mod held;
 mod map;
 mod readings;
@@ -18,6 +19,8 @@ use std::sync::Arc;
 /// What `isolux._native` holds.
 #[pymodule]
 mod _native {
+    #[pymodule_export]
+    use super::exact::{colours, errors, exact};
     #[pymodule_export]
     use super::held::{Map, Scene};
     #[pymodule_export]

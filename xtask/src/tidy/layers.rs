@@ -16,7 +16,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("isolux-memory", &[]),
     ("isolux-serve", &[]),
     ("isolux-cli", COMMAND),
-    ("isolux-python", &["isolux", "isolux-cli"]),
+    ("isolux-python", &["isolux", "isolux-cli", "isolux-compare", "isolux-view"]),
     ("isolux-bench", &["isolux-compare", "isolux-geometry"]),
 ];
 

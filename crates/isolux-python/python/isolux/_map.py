@@ -16,6 +16,7 @@ from isolux._call import Call, Path, with_unit, words
 from isolux._grid import Grid, grid
 from isolux._readings import Array, Readings, fixed, places, readings
 from isolux._scene import Scene
+from isolux._view import FINER_S, HEIGHT, View
 
 Given = list[tuple[str, _native.Scene | _native.Map]]
 
@@ -293,6 +294,18 @@ class Map:
             threads=threads,
         )
         return self._run("export", [*flags, "-o", os.fspath(path)]).report
+
+    def view(self, *, height: int = HEIGHT, live: bool = True, finer: float = FINER_S) -> View:
+        """Walk through the map in a notebook; a map that ends a cell does so by itself.
+
+        ``height``: in pixels. ``live``: by a widget of anywidget, if that is installed; its page is not kept in the notebook, the picture
+        is. ``live=False`` keeps the page in the notebook and in what nbconvert makes of it, a megabyte or more. ``finer``: seconds to
+        look for finer shadows.
+        """
+        return View(self, height, live, finer)
+
+    def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, Any], dict[str, Any]]:
+        return self.view()._repr_mimebundle_()
 
     def save(self, path: Path) -> None:
         """Write the map file (.glb): the same bytes as ``isolux solve`` writes. It is a picture for every viewer of glTF, too."""
