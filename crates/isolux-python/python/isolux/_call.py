@@ -83,7 +83,7 @@ def words(**flags: Any) -> list[str]:
             continue
         if value is True:
             found.append(flag)
-        elif isinstance(value, (list, tuple)) or getattr(value, "ndim", 0):
+        elif isinstance(value, (list, tuple)) or (hasattr(value, "ndim") and value.ndim > 0):
             found += [flag, ",".join(_number(part) for part in value)]
         else:
             found += [flag, _number(value)]

@@ -63,7 +63,7 @@ class Shown:
         if self._bar and self._bar.is_due():
             state = json.loads(told)
             self._bar.show(state["share"], state["text"])
-        if self._callback:
+        if self._callback is not None:
             return self._callback(Progress(**json.loads(told)))
         return None
 
