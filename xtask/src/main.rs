@@ -37,6 +37,7 @@ cargo xtask walk    of it, the walk-through in Chromium, beside what the command
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask python  of it, the wheel of the package for Python, its tests and its types
+cargo xtask cluster of --all, the package for Python on clusters of Ray that lose workers and nodes
 cargo xtask compared      of --all, all systems by error against time, as short as it can be
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
@@ -71,6 +72,7 @@ fn main() -> ExitCode {
         ["walk"] => walk::run(root),
         ["lamps"] => lamps::run(root),
         ["python"] => python::run(root),
+        ["cluster"] => python::cluster(root),
         ["golden", ref arguments @ ..] => golden::run(root, arguments),
         ["reliability", ref arguments @ ..] => reliability::run(root, arguments),
         ["colours"] => colours::run(root),

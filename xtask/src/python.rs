@@ -34,6 +34,20 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
     })
 }
 
+/// Has pytest run what needs Ray: clusters of this machine, some of whose workers and nodes are killed.
+pub(crate) fn cluster(root: &Path) -> Result<String, String> {
+    let package = root.join("crates").join("isolux-python");
+    let folder = root.join("target").join("python-cluster");
+    optional(python_of_judge(&package.join("tests").join("cluster"), &folder), |python| {
+        let wheel = wheel(&package, &folder.join("wheels"), &python)?;
+        let install = ["-m", "pip", "install", "--quiet", "--no-deps", "--force-reinstall"];
+        wait(Command::new(&python).args(install).arg(&wheel), "pip install of the wheel")?;
+        let test = ["-m", "pytest", "-m", "cluster"];
+        wait(Command::new(&python).current_dir(&package).args(test), "pytest")?;
+        Ok("runs and studies on clusters of Ray pass their tests".to_owned())
+    })
+}
+
 /// Builds the wheel; where it is.
 fn wheel(package: &Path, folder: &Path, python: &Path) -> Result<PathBuf, String> {
     // Of earlier versions, too.

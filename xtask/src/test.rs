@@ -33,7 +33,8 @@ fn every_change(all: bool) -> [Step; 9] {
 }
 
 /// What takes longer or changes less, and must hold before a release.
-const ALL: [Step; 5] = [
+const ALL: [Step; 6] = [
+    ("the package for Python on clusters of Ray", python::cluster),
     ("the ray kernel under the address sanitizer", sanitize::run),
     ("a billion rays in a closed hall", |root| {
         let kernel = ["test", "--release", "--quiet", "--package", "isolux-geometry"];
