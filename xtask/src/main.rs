@@ -40,6 +40,7 @@ cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photo
 cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask python  of it, the wheel of the package for Python, its tests and its types
 cargo xtask python --notebooks  of --all, the example notebooks, and exchange with other packages
+cargo xtask cluster of --all, the package for Python on clusters of Ray that lose workers and nodes
 cargo xtask compared      of --all, all systems by error against time, as short as it can be
 cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
                           [--only PART] [--isolux PATH] [--save]
@@ -80,6 +81,7 @@ fn main() -> ExitCode {
         ["lamps"] => lamps::run(root),
         ["python"] => python::run(root),
         ["python", "--notebooks"] => python::notebooks(root),
+        ["cluster"] => python::cluster(root),
         ["golden", ref arguments @ ..] => golden::run(root, arguments),
         ["reliability", ref arguments @ ..] => reliability::run(root, arguments),
         ["colours"] => colours::run(root),

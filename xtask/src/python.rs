@@ -79,6 +79,18 @@ fn install(package: &Path, folder: &Path, python: &Path) -> Result<(), String> {
     wait(module(python, package, "pip").args(words).arg(&wheel), "pip install of the wheel")
 }
 
+/// Has pytest run what needs Ray: clusters of this machine, some of whose workers and nodes are killed.
+pub(crate) fn cluster(root: &Path) -> Result<String, String> {
+    let package = root.join("crates").join("isolux-python");
+    let folder = root.join("target").join("python-cluster");
+    optional(python_of_judge(&package.join("tests").join("cluster"), &folder), |python| {
+        install(&package, &folder, &python)?;
+        let test = ["-m", "pytest", "-m", "cluster"];
+        wait(Command::new(&python).current_dir(&package).args(test), "pytest")?;
+        Ok("runs and studies on clusters of Ray pass their tests".to_owned())
+    })
+}
+
 /// Builds the wheel; where it is.
 fn wheel(package: &Path, folder: &Path, python: &Path) -> Result<PathBuf, String> {
     // Of earlier versions, too.

@@ -34,7 +34,8 @@ fn every_change(all: bool) -> [Step; 10] {
 }
 
 /// What takes longer or changes less, and must hold before a release.
-const ALL: [Step; 8] = [
+const ALL: [Step; 9] = [
+    ("the package for Python on clusters of Ray", python::cluster),
     ("the ray kernel under the address sanitizer", sanitize::run),
     ("a billion rays in a closed hall", |root| {
         let kernel = ["test", "--release", "--quiet", "--package", "isolux-geometry"];

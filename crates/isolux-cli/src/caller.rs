@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::sync::mpsc::Sender;
 
 /// Who has work done.
 pub struct Caller {
@@ -17,6 +18,8 @@ pub struct Caller {
     pub given: Vec<(PathBuf, Given)>,
     /// Whether the work is to end, with what it has come to.
     pub wants_end: Arc<AtomicBool>,
+    /// Whether the caller has the increments of runs made: it is then told which are wanted.
+    pub makes_increments: bool,
     /// Hears of all, on the thread that works.
     pub tell: Box<dyn Fn(Told) + Send + Sync>,
 }
@@ -43,6 +46,8 @@ pub enum Told {
     Map(PathBuf, Box<(Scene, IlluminationMap)>),
     /// A picture that is written.
     Picture(Picture),
+    /// An increment that the caller has to have made.
+    Wanted(Wanted),
     /// Luminances that are written, cd/m2, row by row from the top.
     Luminances {
         /// In pixels.
@@ -52,6 +57,20 @@ pub enum Told {
         /// Of every pixel, in linear Rec. 709.
         rgb_cd_m2: Vec<[f32; 3]>,
     },
+}
+
+/// An increment that a caller is to have made.
+pub struct Wanted {
+    /// The scene in bytes, unless it is the same as before.
+    pub scene: Option<Vec<u8>>,
+    /// The pilot, as a file, unless it is the same as before.
+    pub pilot: Option<Vec<u8>>,
+    /// The number of the mesh, counted from one.
+    pub stage: u32,
+    /// The number of the increment.
+    pub increment: u64,
+    /// Takes its part, as a file. If it is dropped without one, the run ends.
+    pub answer: Sender<Vec<u8>>,
 }
 
 /// Work for a caller.
@@ -95,6 +114,11 @@ impl Call {
     /// Whether the work is to end.
     pub(crate) fn wants_end(&self) -> Arc<AtomicBool> {
         self.caller.wants_end.clone()
+    }
+
+    /// Whether the caller has increments made.
+    pub(crate) fn makes_increments(&self) -> bool {
+        self.caller.makes_increments
     }
 
     /// Whether a scene was handed in by this name.

@@ -1,20 +1,23 @@
 //! The command in the process of another program, which holds scenes and maps itself: the same checks, figures, files and words.
 //! Nothing is printed, no signal is caught, and the process is not ended. Calls may run on several threads at a time.
 
-pub use crate::caller::{Caller, Given, Told};
+pub use crate::caller::{Caller, Given, Told, Wanted};
 pub use crate::failure::Failure;
+pub use crate::part_making::Make;
 pub use crate::probe::Way;
 pub use crate::trouble::Trouble;
 
 use crate::caller::{Call, called};
 use crate::flags::Flags;
 use crate::reading::Reading;
-use crate::{arguments, carry_out, map_file, probe, request, source};
+use crate::{arguments, carry_out, map_file, part_making, probe, request, source};
 use isolux::engine::ProbePoint;
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::Scene;
+use isolux_formats::map_glb;
 use std::ffi::OsString;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 /// Carries out a subcommand with its flags, as if `isolux --json` stood before them, to its exit code. `--max-memory` bounds maps and
 /// lightmaps alone.
@@ -41,6 +44,30 @@ pub fn read_map(path: &Path, caller: Caller) -> Result<(Scene, IlluminationMap),
 /// The file of a map, which is to have this name.
 pub fn map_bytes(path: &Path, scene: &Scene, map: &IlluminationMap) -> Result<Vec<u8>, Failure> {
     map_file::bytes(path, scene, map)
+}
+
+/// The bytes of a scene, for another process of the same build.
+pub fn scene_bytes(scene: &Scene) -> Result<Vec<u8>, Failure> {
+    map_glb::scene_bytes(scene).map_err(|error| Failure::Refused(error.to_string()))
+}
+
+/// The scene of such bytes.
+pub fn scene_of_bytes(bytes: &[u8]) -> Result<Scene, Failure> {
+    map_glb::scene_of_bytes(bytes).map_err(|what| {
+        Failure::bad_input(format!("a scene in bytes: {what}; send it again, by the same build"))
+    })
+}
+
+/// Makes parts of the run that a pilot (a file `.pilot`) belongs to, on so many threads. What all increments share is computed once;
+/// `serve` is then given what makes parts. `stops` ends one early: it then holds fewer increments, or none.
+pub fn make_parts<T: Send>(
+    scene: (&Scene, &Path),
+    pilot: &[u8],
+    (threads, stops): (Option<u16>, &AtomicBool),
+    serve: impl FnOnce(&mut Make<'_>) -> T + Send,
+) -> Result<T, Failure> {
+    let pool = request::threads_of_call(threads)?;
+    pool.install(|| part_making::make_parts(scene, pilot, stops, serve))
 }
 
 /// Readings of a map, one a point; `None` where nothing is known.

@@ -77,6 +77,8 @@ pub(crate) enum Command {
     Mix(MixFlags),
     /// Add the parts of a run that were made apart, on one machine or many, to its map
     Merge(MergeFlags),
+    /// Solve on a cluster of Ray, with the package for Python
+    Cluster(ClusterFlags),
     /// Audit a scene before a run
     Check(CheckFlags),
     /// Test independently, by complete paths, what a map claims
@@ -310,6 +312,18 @@ pub(crate) struct GridFlags {
     /// Draw the one grid as a plan: the room cut at its height, luminaires, values, isolux lines; u to the right and v up
     #[arg(short = 'o', long, value_name = "FILE.png|FILE.svg")]
     pub picture: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(disable_help_flag = true)]
+pub(crate) struct ClusterFlags {
+    /// `solve`, and its flags
+    #[arg(
+        trailing_var_arg = true,
+        allow_hyphen_values = true,
+        value_name = "solve SCENE -o MAP.glb"
+    )]
+    pub words: Vec<std::ffi::OsString>,
 }
 
 #[derive(Debug, Args)]

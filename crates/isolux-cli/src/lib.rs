@@ -18,6 +18,7 @@ mod compare;
 mod console;
 mod demo;
 mod dimming;
+mod elsewhere;
 pub mod embedded;
 mod ending;
 mod energy;
@@ -53,6 +54,7 @@ mod notes;
 mod origin;
 mod output;
 mod part_files;
+mod part_making;
 mod parted;
 mod points;
 mod probe;
@@ -107,6 +109,9 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
     rayon::scope(|_| carry_out(flags))
 }
 
+/// Clusters are reached from Python.
+const NEEDS_PYTHON: &str = "clusters need the package for Python: pip install isolux[cluster], then python -m isolux cluster solve SCENE -o MAP.glb";
+
 fn carry_out(flags: &Flags) -> Result<Outcome, Failure> {
     let json = flags.json;
     match &flags.command {
@@ -117,6 +122,7 @@ fn carry_out(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Export(flags) => export::run(flags, json),
         Command::View(flags) => serving::view(flags, json),
         Command::Audit(flags) => audit::run(flags, json),
+        Command::Cluster(_) => Err(Failure::bad_input(NEEDS_PYTHON)),
         Command::Check(flags) => check::run(flags, json),
         Command::Lint(flags) => lint::run(flags, json),
         Command::Render(flags) => render::run(flags, json),

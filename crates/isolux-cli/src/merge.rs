@@ -11,8 +11,8 @@ use crate::part_files::{read_part, read_pilot, write_part};
 use crate::progress::Reporter;
 use crate::report::Report;
 use crate::solving::unsolvable;
-use crate::{map_file, memory, parted, source};
-use isolux::engine::{IrradianceCache, RunPart, SolveError, SolveRequest, Watch, solve_merged};
+use crate::{map_file, memory, parted, request, source};
+use isolux::engine::{SolveError, Watch, solve_merged};
 use isolux_formats::checkpoint::Part;
 use serde::Serialize;
 use std::ops::Range;
@@ -44,7 +44,7 @@ pub(crate) fn run(flags: &MergeFlags, json: bool) -> Result<Outcome, Failure> {
         true => source::diffuse(&path, &scene)?,
         false => scene,
     };
-    let request = request(&merged.part, !flags.no_filter);
+    let request = request::of_run(&merged.part.identity, !flags.no_filter);
     let pilot = flags.pilot.as_deref().map(|path| read_pilot(path, request.max_memory_bytes));
     let pilot = pilot.transpose()?;
     let interrupt = Interrupt::install()?;
@@ -103,23 +103,6 @@ fn missing(failure: Failure, path: &Path, flags: &MergeFlags) -> Failure {
         "{}: the scene of the parts does not exist here; name it with --scene",
         path.display()
     ))
-}
-
-/// What was asked of the run that the parts belong to.
-fn request(part: &RunPart, filter: bool) -> SolveRequest {
-    let of = &part.identity;
-    SolveRequest {
-        method: of.method,
-        accuracy: of.accuracy,
-        mesh_accuracy: of.mesh_accuracy,
-        time_limit: None,
-        seed: of.seed,
-        filter,
-        audit: of.audit,
-        max_memory_bytes: of.max_memory_bytes,
-        cache: IrradianceCache::default(),
-        radiosity: of.radiosity,
-    }
 }
 
 fn print_merged(merged: &Merged, json: bool) -> Result<Outcome, Failure> {

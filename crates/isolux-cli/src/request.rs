@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::flags::{MethodName, Quality, RadiosityFlags, SolveFlags};
 use crate::memory;
 use crate::output::OutputPath;
-use isolux::engine::{IrradianceCache, RadiositySettings, SolveRequest};
+use isolux::engine::{IrradianceCache, RadiositySettings, RunIdentity, SolveRequest};
 use isolux::map::Method;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::path::Path;
@@ -98,6 +98,22 @@ fn request(flags: &SolveFlags) -> SolveRequest {
         max_memory_bytes: memory::of_map(),
         cache: IrradianceCache::default(),
         radiosity: radiosity(&flags.radiosity),
+    }
+}
+
+/// What was asked of a run.
+pub(crate) fn of_run(of: &RunIdentity, filter: bool) -> SolveRequest {
+    SolveRequest {
+        method: of.method,
+        accuracy: of.accuracy,
+        mesh_accuracy: of.mesh_accuracy,
+        time_limit: None,
+        seed: of.seed,
+        filter,
+        audit: of.audit,
+        max_memory_bytes: of.max_memory_bytes,
+        cache: IrradianceCache::default(),
+        radiosity: of.radiosity,
     }
 }
 

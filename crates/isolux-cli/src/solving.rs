@@ -1,5 +1,6 @@
 //! A run of an engine as a user sees it: progress, interruption, and who can mend what went wrong.
 
+use crate::elsewhere::Increments;
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
@@ -12,7 +13,7 @@ use crate::saved_run::{self, Keeper};
 use crate::serving::Live;
 use crate::shown;
 use crate::source;
-use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
+use isolux::engine::{self, Progress, RunState, SoFar, Solution, SolveError, SolveRequest, Watch};
 use isolux::map::{HotSpots, IlluminationMap, KnownSurface, Method};
 use isolux::scene::Scene;
 use std::path::Path;
@@ -238,7 +239,7 @@ fn follow(
     // Whoever gives a time limit, or watches, decides himself.
     let is_open = request.time_limit.is_none() && live.is_none();
     let mut beyond = None;
-    let solved = engine::solve_looked_at(scene, request, saved, &mut |progress, so_far| {
+    let mut watch = |progress: &Progress, so_far: &SoFar<'_>| {
         reporter.show(progress);
         if let Some(keeper) = &mut keeper {
             keeper.look(so_far);
@@ -253,7 +254,17 @@ fn follow(
         } else {
             wanted.unwrap_or(Watch::Continue)
         }
-    });
+    };
+    let solved = match Increments::of_caller() {
+        Some(mut increments) => engine::solve_elsewhere(
+            scene,
+            request,
+            saved,
+            &mut |pilot, increment| increments.next(scene, pilot, increment),
+            &mut watch,
+        ),
+        None => engine::solve_looked_at(scene, request, saved, &mut watch),
+    };
     reporter.finish();
     let solution = solved.map_err(failure)?;
     let is_stopped = interrupt.is_requested() || live.is_some_and(|live| live.is_stopped());

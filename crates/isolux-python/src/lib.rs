@@ -6,6 +6,7 @@ mod error;
 mod exact;
 mod held;
 mod map;
+mod parts;
 mod readings;
 mod scene;
 mod work;
@@ -24,6 +25,8 @@ mod _native {
     #[pymodule_export]
     use super::held::{Map, Scene};
     #[pymodule_export]
+    use super::parts::PartMaker;
+    #[pymodule_export]
     use super::{command, defect, run};
 }
 
@@ -33,7 +36,7 @@ fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| isolux_cli::command(words.into_iter()))
 }
 
-/// Carries out a subcommand, to its exit code.
+/// Carries out a subcommand, to its exit code. With `makes_increments`, `tell` is asked for the increments of runs.
 #[pyfunction]
 fn run(
     py: Python<'_>,
@@ -41,10 +44,13 @@ fn run(
     given: Vec<(PathBuf, Bound<'_, PyAny>)>,
     tell: Bound<'_, PyAny>,
     waits: bool,
+    makes_increments: bool,
 ) -> PyResult<u8> {
     let given = given.into_iter().map(|(name, held)| Ok((name, handed_in(&held)?)));
     let given = given.collect::<PyResult<Vec<_>>>()?;
-    work::call(py, (&tell, waits), move |caller| embedded::run(&words, Caller { given, ..caller }))
+    work::call(py, (&tell, waits), move |caller| {
+        embedded::run(&words, Caller { given, makes_increments, ..caller })
+    })
 }
 
 fn handed_in(held: &Bound<'_, PyAny>) -> PyResult<Given> {

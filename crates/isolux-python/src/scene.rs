@@ -2,9 +2,10 @@
 
 use crate::held::Scene;
 use crate::readings::{Light, Points, places};
-use crate::{arrays, work};
+use crate::{arrays, error, work};
 use isolux_cli::embedded;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,6 +17,23 @@ impl Scene {
     fn read(py: Python<'_>, words: Vec<OsString>, tell: Bound<'_, PyAny>) -> PyResult<Self> {
         let read = move |caller| embedded::read_scene(&words, caller);
         Ok(Self { held: Arc::new(work::call(py, (&tell, false), read)?) })
+    }
+
+    /// Its bytes, for another process of the same build.
+    fn packed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = py.detach(|| embedded::scene_bytes(&self.held));
+        bytes
+            .map(|bytes| PyBytes::new(py, &bytes))
+            .map_err(|failure| error::of_failure(py, &failure))
+    }
+
+    /// The scene of such bytes.
+    #[staticmethod]
+    fn unpacked(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
+        match py.detach(|| embedded::scene_of_bytes(bytes)) {
+            Ok(scene) => Ok(Self { held: Arc::new(scene) }),
+            Err(failure) => Err(error::of_failure(py, &failure)),
+        }
     }
 
     #[getter]

@@ -5,6 +5,7 @@ use crate::{arrays, error};
 use isolux_cli::embedded::{Caller, Failure, Told};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -36,8 +37,12 @@ pub(crate) fn call<T: Send + 'static>(
         let _ = sender.send((told, waits.then_some(answer)));
         let _ = answered.recv();
     };
-    let caller =
-        Caller { given: Vec::new(), wants_end: Arc::clone(&wants_end), tell: Box::new(send) };
+    let caller = Caller {
+        given: Vec::new(),
+        wants_end: Arc::clone(&wants_end),
+        makes_increments: false,
+        tell: Box::new(send),
+    };
     let worker = std::thread::spawn(|| catch_unwind(AssertUnwindSafe(|| work(caller))));
     let raised = listen(py, messages, (tell, &wants_end))?;
     match (raised, py.detach(|| worker.join()).flatten()) {
@@ -87,6 +92,15 @@ fn hand_over(tell: &Bound<'_, PyAny>, told: Told) -> PyResult<bool> {
         Told::Map(path, held) => {
             let map = Bound::new(py, Map { held: Arc::from(held) })?;
             tell.call1(("map", (path, map)))
+        }
+        Told::Wanted(wanted) => {
+            let bytes = |of: Option<Vec<u8>>| of.map(|of| PyBytes::new(py, &of));
+            let (scene, pilot) = (bytes(wanted.scene), bytes(wanted.pilot));
+            let what = (scene, pilot, wanted.stage, wanted.increment);
+            let part: Option<Vec<u8>> = tell.call1(("increment", what))?.extract()?;
+            // Without an answer the run ends.
+            let _ = part.map(|part| wanted.answer.send(part));
+            return Ok(true);
         }
         Told::Picture(picture) => {
             let size = [picture.height, picture.width];

@@ -1,6 +1,7 @@
 //! Illumination maps as `.glb` files: lit geometry for every viewer, and all of the map and its
 //! scene for isolux itself. `docs/book/map-format.md` describes the format.
 
+mod alone;
 mod arrays;
 mod attributes;
 mod backs;
@@ -22,6 +23,7 @@ mod value_arrays;
 mod vertices;
 mod write;
 
+pub use alone::{scene_bytes, scene_of_bytes};
 pub(crate) use container::pack;
 pub(crate) use displayed::{Displayed, displayed};
 pub use preview::Preview;

@@ -13,6 +13,7 @@ from __future__ import annotations
 from importlib.metadata import version as _version
 from typing import Any
 
+from isolux import parts
 from isolux._builder import Luminaire
 from isolux._call import Path, command
 from isolux._errors import Defect, Error, InputError, IsoluxWarning, Problem, RefusedError
@@ -47,6 +48,7 @@ __all__ = [
     "load",
     "mix",
     "open_map",
+    "parts",
     "solve",
     "validate",
 ]

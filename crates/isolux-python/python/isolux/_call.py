@@ -13,13 +13,22 @@ from isolux import _native
 from isolux._errors import IsoluxWarning
 
 Path = str | os.PathLike[str]
+
+#: Has an increment of a run made: gets the scene and the pilot, in bytes, unless they are those of before, the number of the mesh and
+#: that of the increment, and returns a part, or ``None`` to end the run.
+Increment = Callable[[bytes | None, bytes | None, int, int], bytes | None]
+
 _LOG = logging.getLogger("isolux")
 
 
 class Call:
     """Hears what a call tells, and keeps what it makes."""
 
-    def __init__(self, progress: Callable[[str], object] | None = None) -> None:
+    def __init__(
+        self,
+        progress: Callable[[str], object] | None = None,
+        increment: Increment | None = None,
+    ) -> None:
         self.report: Any = None
         self.warnings: list[str] = []
         self.notes: list[str] = []
@@ -27,10 +36,13 @@ class Call:
         self.image: Any = None
         self.exit_code = 0
         self._progress = progress
+        self._increment = increment
 
     def __call__(self, kind: str, told: Any) -> object:
         if kind == "progress":
             return self._progress(told) if self._progress else None
+        if kind == "increment":
+            return self._increment(*told) if self._increment else None
         if kind == "json":
             self.report = json.loads(told)
         elif kind == "map":
@@ -51,7 +63,8 @@ class Call:
     ) -> Call:
         """Run a subcommand."""
         try:
-            self.exit_code = _native.run(list(words), list(given), self, waits)
+            makes = self._increment is not None
+            self.exit_code = _native.run(list(words), list(given), self, waits, makes)
         finally:
             self.pass_on()
         return self

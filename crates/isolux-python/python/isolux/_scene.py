@@ -188,8 +188,15 @@ class Scene:
         call = call or Call()
         return call.run([subcommand, *words, "--", self._source], [(self._source, self._native)])
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpacked, (self._native.packed(), self._source, self.warnings)
+
     def __repr__(self) -> str:
         return f"<isolux.Scene {self.name!r}: {self.triangle_count} triangles>"
+
+
+def _unpacked(data: bytes, source: str, warnings: Sequence[str]) -> Scene:
+    return Scene(_native.Scene.unpacked(data), source, warnings)
 
 
 def _at_least(name: str, value: int | None, least: int) -> int | None:

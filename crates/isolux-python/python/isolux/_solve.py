@@ -6,8 +6,9 @@ import os
 import tempfile
 from collections.abc import Callable
 from contextlib import ExitStack
+from typing import Any
 
-from isolux._call import Call, Path, with_unit, words
+from isolux._call import Call, Increment, Path, with_unit, words
 from isolux._map import Map
 from isolux._progress import Progress, Shown
 from isolux._scene import Scene, load
@@ -40,6 +41,7 @@ def solve(
     min_element: float | str | None = None,
     ambient: bool = True,
     diffuse_only: bool = False,
+    _increment: Increment | None = None,
 ) -> Map:
     """Compute the illumination map of a scene, as ``isolux solve`` does: same names, same meanings, same bytes.
 
@@ -61,17 +63,17 @@ def solve(
     ``min_element`` is in metres.
     """
     scene = scene if isinstance(scene, Scene) else load(scene)
-    flags = words(
-        accuracy=accuracy if quality is None else None,
+    flags = flags_of(
+        accuracy=accuracy,
         quality=quality,
         mesh_accuracy=mesh_accuracy,
         method=method,
-        time_limit=with_unit(time_limit, "s"),
+        time_limit=time_limit,
         seed=seed,
         threads=threads,
-        no_filter=not filter,
-        no_audit=not audit,
-        max_memory=f"{max_memory}B" if isinstance(max_memory, int) else max_memory,
+        filter=filter,
+        audit=audit,
+        max_memory=max_memory,
         resume=resume,
         cache=cache,
         group=group,
@@ -80,8 +82,8 @@ def solve(
         form_factor_tolerance=form_factor_tolerance,
         unshot=unshot,
         max_receivers=max_receivers,
-        min_element=with_unit(min_element, "m"),
-        no_ambient=not ambient,
+        min_element=min_element,
+        ambient=ambient,
         diffuse_only=diffuse_only,
     )
     shown = Shown(progress, callback)
@@ -95,12 +97,25 @@ def solve(
         else:
             path = os.fspath(output)
         given = [(scene._source, scene._native)]
-        call = Call(shown).run(
+        call = Call(shown, _increment).run(
             ["solve", *flags, "-o", path, "--", scene._source],
             given,
             waits=callback is not None,
         )
     return _made(call, path if output is not None else scene.name)
+
+
+def flags_of(**options: Any) -> list[str]:
+    """Options of :func:`solve` in the words of the command."""
+    if options.get("quality") is not None:
+        options.pop("accuracy", None)
+    for name, unit in (("time_limit", "s"), ("min_element", "m")):
+        options[name] = with_unit(options.get(name), unit)
+    for name in ("filter", "audit", "ambient"):
+        options[f"no_{name}"] = not options.pop(name, True)
+    if isinstance(options.get("max_memory"), int):
+        options["max_memory"] = f"{options['max_memory']}B"
+    return words(**options)
 
 
 def _made(call: Call, name: str) -> Map:

@@ -70,7 +70,7 @@ fn increments_from_elsewhere_give_the_map_of_one_run() {
         with_parts(&scene, &request, pilot, |maker| maker.make(index..index + 1, &mut go_on))
             .map(Some)
     };
-    let solution = solve_elsewhere(&scene, &request, &mut elsewhere, &mut go_on).unwrap();
+    let solution = solve_elsewhere(&scene, &request, None, &mut elsewhere, &mut go_on).unwrap();
     assert_eq!(solution.map, whole.map);
     assert_eq!(made, (0..whole.map.provenance.increments).collect::<Vec<_>>());
 }

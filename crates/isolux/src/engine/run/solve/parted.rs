@@ -3,7 +3,7 @@
 use super::super::increments::Work;
 use super::super::part::RunPart;
 use super::super::request::{SolveError, SolveRequest, Stage, Watch};
-use super::super::state::{PilotState, RunIdentity};
+use super::super::state::{PilotState, RunIdentity, RunState};
 use super::session::{End, Run};
 use super::so_far::{Elsewhere, SoFar, Solution, Watcher};
 use super::stages::{check, run_on};
@@ -16,16 +16,17 @@ use crate::scene::Scene;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Computes a map as [`super::solve`] does, from increments that are made elsewhere. The pilot and the audit are made
-/// here.
+/// Computes a map as [`super::solve_looked_at`] does, from increments that are made elsewhere. The pilot and the audit
+/// are made here.
 pub fn solve_elsewhere(
     scene: &Scene,
     request: &SolveRequest,
+    resume: Option<&RunState>,
     elsewhere: &mut Elsewhere<'_>,
     watch: &mut Watcher<'_>,
 ) -> Result<Solution, SolveError> {
     check_parts(scene, request)?;
-    run_on(scene, request, None, Some(elsewhere), watch)
+    run_on(scene, request, resume, Some(elsewhere), watch)
 }
 
 /// The pilot of a run; `None` if it was stopped before its end.
