@@ -24,13 +24,16 @@ def test_a_hundred_scenes_leave_nothing() -> None:
         assert m.scene.triangles.shape == (12, 3, 3)
         m.probe([(0.5, -5.0, 0.5)], (0, 1, 0))
 
-    for _ in range(20):
-        once()
-    gc.collect()
-    before = resident_kib()
-    for _ in range(80):
-        once()
-    gc.collect()
+    def grown_kib(runs: int) -> int:
+        before = resident_kib()
+        for _ in range(runs):
+            once()
+        gc.collect()
+        return resident_kib() - before
+
+    # The first runs fill caches. What the allocator keeps for later comes and goes; a leak grows every time.
+    grown_kib(20)
+    least = min(grown_kib(30) for _ in range(3))
     one = len(isolux.solve("builtin:cube", accuracy=0.2, progress=False, audit=False).to_bytes())
     # Less than a quarter of a map file, the least of what a run holds, a run.
-    assert (resident_kib() - before) * 1024 < 80 * one / 4
+    assert least * 1024 < 30 * one / 4
