@@ -7,16 +7,16 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
+/// Names of points, each with its weight in the mean error.
+type Letters = Vec<(char, f64)>;
+
 fn no_such_case(case: &str) -> PyErr {
     PyValueError::new_err(format!("`{case}` has no exact values here; choose cube or sphere"))
 }
 
 /// Rows of `x y z nx ny nz lx`, those of the grid first; then letter and weight of each of the last rows, the points of the paper.
 #[pyfunction]
-pub(crate) fn exact<'py>(
-    py: Python<'py>,
-    case: &str,
-) -> PyResult<(Bound<'py, PyAny>, Vec<(char, f64)>)> {
+pub(crate) fn exact<'py>(py: Python<'py>, case: &str) -> PyResult<(Bound<'py, PyAny>, Letters)> {
     let places = py.detach(|| isolux_compare::places(case)).ok_or_else(|| no_such_case(case))?;
     let right_lx: Vec<f64> = places.iter().map(|(_, lx)| *lx).collect();
     let named = Readings::of_values(case, &right_lx).ok_or_else(|| no_such_case(case))?;
