@@ -146,3 +146,22 @@ def test_photometric_files() -> None:
     assert isolux.info(lamp)["kind"] == "photometric file"
     assert isolux.lint(lamp)["files"]
     assert isolux.check("builtin:cube")["triangles"] == 12
+
+
+def test_a_saved_map_keeps_its_groups(tmp_path: Path) -> None:
+    lamps = [
+        isolux.Luminaire(isotropic={"flux_lm": 100}, position=(x, 0.5, 1), group=name)
+        for x, name in ((0.3, "left"), (0.7, "right one"))
+    ]
+    corners, faces = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)]
+    scene = isolux.Scene.from_arrays(corners, faces, luminaires=lamps)
+    m = isolux.solve(scene, accuracy=0.1, group=True, progress=False)
+    m.save(tmp_path / "two.glb")
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["two.glb", "two.left.glb", "two.right-one.glb"]
+    dimmed = isolux.open_map(tmp_path / "two.glb").mix({"left": 0.5})
+    assert dimmed.to_bytes() == m.mix({"left": 0.5}).to_bytes()
+    with pytest.raises(isolux.InputError, match="end its name so"):
+        m.save(tmp_path / "two.exr")
+    with pytest.raises(isolux.InputError, match="there is no directory"):
+        m.save(tmp_path / "none" / "two.glb")

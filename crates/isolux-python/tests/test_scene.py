@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import isolux
 import numpy as np
@@ -138,3 +139,22 @@ def test_paths_read_without_a_map(cube: isolux.Scene, coarse: isolux.Map) -> Non
     assert abs(apart[0]) < 5 * np.hypot(traced["standard_error_lx"], read["standard_error_lx"])[0]
     with pytest.raises(ValueError, match="at least 32"):
         cube.probe(middle, paths=3)
+
+
+def test_luminaires_may_be_dicts_or_one() -> None:
+    lamp: dict[str, Any] = {"isotropic": {"flux_lm": 100}, "position": (0.5, 0.5, 1)}
+    corners, faces = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)]
+    for luminaires in ([lamp], [isolux.Luminaire(**lamp)], isolux.Luminaire(**lamp)):
+        scene = isolux.Scene.from_arrays(corners, faces, luminaires=luminaires)
+        assert scene.luminous_flux_lm == pytest.approx(100)
+    with pytest.raises(isolux.InputError, match="luminaires hold 3"):
+        isolux.Scene.from_arrays(corners, faces, luminaires=[3])  # type: ignore[list-item]
+
+
+def test_a_map_is_no_scene() -> None:
+    m = isolux.solve("builtin:cube", accuracy=0.2, progress=False)
+    for wants_a_scene in (isolux.solve, isolux.check):
+        with pytest.raises(isolux.InputError, match="a Map is no scene.*m.scene"):
+            wants_a_scene(m)  # type: ignore[arg-type]
+    with pytest.raises(isolux.InputError, match="--accuracy"):
+        isolux.solve("builtin:cube", accuracy=0.2, quality="draft", progress=False)

@@ -11,6 +11,7 @@ Lengths are metres in the axes of the scene, illuminances lux, luminances cd/m2,
 from __future__ import annotations
 
 from importlib.metadata import version as _version
+from os import PathLike
 from typing import Any
 
 from isolux import parts
@@ -21,7 +22,7 @@ from isolux._grid import Figure, Grid
 from isolux._map import Map, mix, open_map
 from isolux._progress import Progress
 from isolux._readings import READING, Readings
-from isolux._scene import Scene, load
+from isolux._scene import Scene, as_scene, load
 from isolux._solve import solve
 
 __version__ = _version("isolux")
@@ -56,7 +57,9 @@ __all__ = [
 
 def check(scene: Path | Scene) -> Any:
     """Audit a scene before a run: the object that ``isolux check --json`` prints, with its ``findings``."""
-    return scene.check() if isinstance(scene, Scene) else command("check", "--", scene)
+    if isinstance(scene, (str, PathLike)):
+        return command("check", "--", scene)
+    return as_scene(scene).check()
 
 
 def info(path: Path) -> Any:

@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from isolux._errors import wrong
+
 
 class Luminaire:
     """A luminaire of a scene that is made of arrays.
@@ -55,7 +57,7 @@ def write(
     triangles: npt.ArrayLike,
     materials: Material | Mapping[str, Material],
     triangle_materials: npt.ArrayLike | None,
-    luminaires: Sequence[Luminaire],
+    luminaires: Luminaire | Sequence[Luminaire | Mapping[str, Any]],
     cameras: Sequence[Mapping[str, Any]],
     grids: Sequence[Mapping[str, Any]],
     name: str,
@@ -76,8 +78,13 @@ def write(
             # Coordinates are the scene's own: they are not turned.
             keys = {"name": material, "file": file, "material": material, "up": up}
             lines += ["[[geometry]]", *_keys(keys)]
+    if isinstance(luminaires, (Luminaire, Mapping)):
+        luminaires = [luminaires]
     for luminaire in luminaires:
-        lines += ["[[luminaire]]", *_keys(luminaire.keys)]
+        keys = luminaire.keys if isinstance(luminaire, Luminaire) else luminaire
+        if not isinstance(keys, Mapping):
+            raise wrong(f"luminaires hold {keys!r}; give isolux.Luminaire(...) or dicts")
+        lines += ["[[luminaire]]", *_keys(keys)]
     for table, rows in (("camera", cameras), ("grid", grids)):
         for row in rows:
             lines += [f"[[{table}]]", *_keys(row)]
@@ -92,14 +99,14 @@ def _mesh(
     points = np.asarray(vertices, dtype=np.float64)
     corners = np.asarray(triangles)
     if points.ndim != 2 or points.shape[1] != 3:
-        raise ValueError(f"vertices have the shape {points.shape}; give (n, 3), in metres")
+        raise wrong(f"vertices have the shape {points.shape}; give (n, 3), in metres")
     if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
-        raise ValueError(
+        raise wrong(
             f"triangles have the shape {corners.shape} of {corners.dtype}; give (m, 3) integers"
         )
     corners = corners.astype(np.int64)
     if corners.size and not (0 <= corners.min() and corners.max() < len(points)):
-        raise ValueError(
+        raise wrong(
             f"triangles name vertices {corners.min()} to {corners.max()}; there are 0 to {len(points) - 1}"
         )
     return points, corners
@@ -117,24 +124,24 @@ def _chosen(
     of_triangles: npt.ArrayLike | None, names: list[str], count: int
 ) -> npt.NDArray[np.int64]:
     if not names:
-        raise ValueError("materials are empty; give one, as {'paint': 0.7}")
+        raise wrong("materials are empty; give one, as {'paint': 0.7}")
     if of_triangles is None:
         if len(names) > 1:
-            raise ValueError("triangle_materials are missing; there are several materials")
+            raise wrong("triangle_materials are missing; there are several materials")
         return np.zeros(count, dtype=np.int64)
     chosen = np.asarray(of_triangles)
     if chosen.shape != (count,):
-        raise ValueError(f"triangle_materials have the shape {chosen.shape}; give ({count},)")
+        raise wrong(f"triangle_materials have the shape {chosen.shape}; give ({count},)")
     if chosen.dtype.kind in "iu":
         if count and not (0 <= chosen.min() and chosen.max() < len(names)):
-            raise ValueError(
+            raise wrong(
                 f"triangle_materials go from {chosen.min()} to {chosen.max()}; there are 0 to {len(names) - 1}"
             )
         return chosen.astype(np.int64)
     number = {name: at for at, name in enumerate(names)}
     unknown = sorted({str(name) for name in chosen} - set(names))
     if unknown:
-        raise ValueError(f"triangle_materials name {unknown[0]!r}; choose one of {names}")
+        raise wrong(f"triangle_materials name {unknown[0]!r}; choose one of {names}")
     return np.array([number[str(name)] for name in chosen], dtype=np.int64)
 
 

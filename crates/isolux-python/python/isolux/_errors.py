@@ -31,6 +31,11 @@ class InputError(Error, ValueError):
     """An input that you can mend: a file, a scene, an argument."""
 
 
+def wrong(text: str) -> Error:
+    """An argument that is wrong, and how it is right."""
+    return InputError._of([(text, None, None, None)])
+
+
 class RefusedError(Error, OSError):
     """What the machine cannot do: memory, space on a disk."""
 

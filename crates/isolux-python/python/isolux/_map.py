@@ -6,6 +6,7 @@ import os
 import tempfile
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from pathlib import Path as FilePath
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import numpy.typing as npt
 
 from isolux import _native
 from isolux._call import Call, Path, with_unit, words
+from isolux._errors import wrong
 from isolux._grid import Grid, grid
 from isolux._readings import Array, Readings, fixed, places, readings
 from isolux._scene import Scene
@@ -123,7 +125,7 @@ class Map:
         ``exact``: estimate every point afresh, in free space, too: slower. ``interpolated``: the map as a viewer shows it.
         """
         if exact and interpolated:
-            raise ValueError("exact and interpolated exclude each other; leave one out")
+            raise wrong("exact and interpolated exclude each other; leave one out")
         way = "exact" if exact else "interpolated" if interpolated else "probe"
         call = Call()
         rows = self._native.readings(self._name, places(points, normals), way, call)
@@ -154,7 +156,7 @@ class Map:
         own = height is not None or corner is not None
         if name is None and not own and len(self.scene.grids) > 1:
             known = ", ".join(repr(known) for known in self.scene.grids)
-            raise ValueError(f"the scene has several grids; choose one of {known}, or use grids()")
+            raise wrong(f"the scene has several grids; choose one of {known}, or use grids()")
         flags = words(
             name=name,
             height=height,
@@ -212,7 +214,7 @@ class Map:
         have, CIE94; 0.5 unless given.
         """
         if luminance and false_colour:
-            raise ValueError("luminance and false_colour exclude each other; leave one out")
+            raise wrong("luminance and false_colour exclude each other; leave one out")
         flags = words(
             camera=camera,
             eye=eye,
@@ -308,9 +310,20 @@ class Map:
         return self.view()._repr_mimebundle_()
 
     def save(self, path: Path) -> None:
-        """Write the map file (.glb): the same bytes as ``isolux solve`` writes. It is a picture for every viewer of glTF, too."""
-        with open(path, "wb") as file:
-            file.write(self.to_bytes())
+        """Write the map file (.glb): the same bytes as ``isolux solve`` writes. It is a picture for every viewer of glTF, too.
+
+        The maps of its ``groups`` are written beside it, as ``map.GROUP.glb``.
+        """
+        target = FilePath(path)
+        if target.suffix.lower() != ".glb":
+            raise wrong(f"{target}: a map is a .glb; end its name so, or use export")
+        if not target.parent.is_dir():
+            raise wrong(f"{target}: there is no directory `{target.parent}`; create it or choose another place")
+        target.write_bytes(self.to_bytes())
+        for of in self.groups.values():
+            # The name that the run has given it: the group's, made safe for files.
+            suffix = "".join(FilePath(of._name).suffixes[-2:])
+            target.with_suffix(suffix).write_bytes(of.to_bytes())
 
     def to_bytes(self) -> bytes:
         """The bytes of the map file."""

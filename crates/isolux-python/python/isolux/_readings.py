@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from isolux._errors import wrong
+
 if TYPE_CHECKING:
     import pandas as _pandas
 
@@ -54,11 +56,11 @@ def places(points: npt.ArrayLike, normals: npt.ArrayLike) -> Array:
     at = np.atleast_2d(np.asarray(points, dtype=np.float64))
     facing = np.asarray(normals, dtype=np.float64)
     if at.ndim != 2 or at.shape[1] != 3:
-        raise ValueError(f"points have the shape {at.shape}; give (n, 3) or (3,)")
+        raise wrong(f"points have the shape {at.shape}; give (n, 3) or (3,)")
     try:
         facing = np.broadcast_to(facing, at.shape)
     except ValueError:
-        raise ValueError(
+        raise wrong(
             f"normals have the shape {facing.shape}; give one for all, (3,), or {at.shape}"
         ) from None
     return np.ascontiguousarray(np.concatenate([at, facing], axis=1))

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from isolux import _builder, _native
 from isolux._builder import Luminaire, Material
 from isolux._call import Call, Path
+from isolux._errors import wrong
 from isolux._readings import Array, Readings, fixed, places, readings
 
 
@@ -38,7 +39,7 @@ class Scene:
         *,
         materials: Material | Mapping[str, Material] = 0.5,
         triangle_materials: npt.ArrayLike | None = None,
-        luminaires: Sequence[Luminaire] = (),
+        luminaires: Luminaire | Sequence[Luminaire | Mapping[str, Any]] = (),
         cameras: Sequence[Mapping[str, Any]] = (),
         grids: Sequence[Mapping[str, Any]] = (),
         name: str = "scene",
@@ -50,7 +51,8 @@ class Scene:
         ``materials``: a diffuse reflectance for all, or a dict of names. What a name stands for is a reflectance, one number or
         (red, green, blue) in linear Rec. 709, or a dict with the keys of ``[materials.NAME]`` in a ``scene.toml``, such as
         ``{"luminance_cd_m2": 2000}``. ``triangle_materials``: (m,) names, or integers that count ``materials``; may be left out where
-        there is one. ``cameras`` and ``grids``: dicts with the keys of ``[[camera]]`` and ``[[grid]]``. ``up``: ``"y"`` or ``"z"``.
+        there is one. ``luminaires``: :class:`Luminaire`, or dicts with the keys of ``[[luminaire]]``. ``cameras`` and ``grids``: dicts with the keys of
+        ``[[camera]]`` and ``[[grid]]``. ``up``: ``"y"`` or ``"z"``.
         """
         with tempfile.TemporaryDirectory(prefix="isolux-") as folder:
             path = _builder.write(
@@ -201,7 +203,7 @@ def _unpacked(data: bytes, source: str, warnings: Sequence[str]) -> Scene:
 
 def _at_least(name: str, value: int | None, least: int) -> int | None:
     if value is not None and value < least:
-        raise ValueError(f"{name} is {value}; give at least {least}")
+        raise wrong(f"{name} is {value}; give at least {least}")
     return value
 
 
@@ -227,3 +229,14 @@ def load(
     finally:
         call.pass_on()
     return Scene(native, files[0], call.warnings)
+
+
+def as_scene(scene: Scene | Path) -> Scene:
+    """A scene, or the one of a file."""
+    if isinstance(scene, Scene):
+        return scene
+    if not isinstance(scene, (str, os.PathLike)):
+        kind = type(scene).__name__
+        hint = "; a map has its scene as m.scene" if kind == "Map" else ""
+        raise wrong(f"a {kind} is no scene; give an isolux.Scene or the path of one{hint}")
+    return load(scene)

@@ -9,15 +9,16 @@ from contextlib import ExitStack
 from typing import Any
 
 from isolux._call import Call, Increment, Path, with_unit, words
+from isolux._errors import wrong
 from isolux._map import Map
 from isolux._progress import Progress, Shown
-from isolux._scene import Scene, load
+from isolux._scene import Scene, as_scene
 
 
 def solve(
     scene: Scene | Path,
     *,
-    accuracy: float | str = 0.01,
+    accuracy: float | str | None = None,
     quality: str | None = None,
     mesh_accuracy: float | str | None = None,
     method: str = "hybrid",
@@ -46,7 +47,7 @@ def solve(
     """Compute the illumination map of a scene, as ``isolux solve`` does: same names, same meanings, same bytes.
 
     ``scene``: a :class:`Scene`, or what :func:`load` reads. ``accuracy``: stop when the whole error of the scene is this small: 0.01
-    or ``"1%"``; or ``quality``, a name for one: ``"draft"``, ``"medium"``, ``"high"``, ``"production"``. ``mesh_accuracy``: the error of
+    (unless given) or ``"1%"``; or ``quality``, a name for one: ``"draft"``, ``"medium"``, ``"high"``, ``"production"``. ``mesh_accuracy``: the error of
     the interpolated map that elements are subdivided for, 0.05 unless given. ``method``: ``"hybrid"``, ``"forward"``, ``"cache"``,
     ``"radiosity"``. ``time_limit``: seconds, or ``"5min"``, after which the run stops with a valid map. ``seed``: the same seed gives the
     same bits, whatever ``threads`` is. ``filter``: reduce noise where there is nothing else. ``audit``: test the map by paths.
@@ -62,7 +63,7 @@ def solve(
     ``Map.groups`` and ``Map.mix``. ``layout="texels"``: bake a lightmap into the output. The others are for ``method="radiosity"``;
     ``min_element`` is in metres.
     """
-    scene = scene if isinstance(scene, Scene) else load(scene)
+    scene = as_scene(scene)
     flags = flags_of(
         accuracy=accuracy,
         quality=quality,
@@ -91,7 +92,7 @@ def solve(
         stack.callback(shown.close)
         if output is None:
             if resume:
-                raise ValueError("resume: there is no output to go on from; give its name")
+                raise wrong("resume: there is no output to go on from; give its name")
             folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="isolux-"))
             path = os.path.join(folder, "map.glb")
         else:
@@ -107,8 +108,6 @@ def solve(
 
 def flags_of(**options: Any) -> list[str]:
     """Options of :func:`solve` in the words of the command."""
-    if options.get("quality") is not None:
-        options.pop("accuracy", None)
     for name, unit in (("time_limit", "s"), ("min_element", "m")):
         options[name] = with_unit(options.get(name), unit)
     for name in ("filter", "audit", "ambient"):

@@ -17,9 +17,10 @@ from typing import Any
 
 from isolux import _native
 from isolux._call import Call, Path
+from isolux._errors import wrong
 from isolux._map import Map
 from isolux._progress import Shown
-from isolux._scene import Scene, load
+from isolux._scene import Scene, as_scene
 from isolux._solve import flags_of, solve
 
 __all__ = ["PartMaker", "make_pilot", "merge", "solve_elsewhere", "to_map"]
@@ -31,7 +32,7 @@ Next = Callable[[bytes | None, int, int], bytes | None]
 
 def make_pilot(scene: Scene | Path, *, progress: bool = False, **options: Any) -> bytes:
     """Make the pilot of a run, which fixes its elements. ``options`` are those of :func:`isolux.solve`; all parts have them in common."""
-    scene = scene if isinstance(scene, Scene) else load(scene)
+    scene = as_scene(scene)
     shown = Shown(progress, None)
     try:
         return _written(
@@ -49,7 +50,7 @@ class PartMaker:
     """
 
     def __init__(self, scene: Scene | Path, pilot: bytes, *, threads: int | None = None) -> None:
-        scene = scene if isinstance(scene, Scene) else load(scene)
+        scene = as_scene(scene)
         self._native = _native.PartMaker(scene._native, scene._source, pilot, threads)
 
     def make(self, first: int, end: int) -> bytes:
@@ -72,7 +73,7 @@ def to_map(
     threads: int | None = None,
 ) -> Map:
     """The map of the first increments of a run, without a gap, as ``isolux merge`` has it. Without a pilot, it is made again."""
-    scene = scene if isinstance(scene, Scene) else load(scene)
+    scene = as_scene(scene)
     with tempfile.TemporaryDirectory(prefix="isolux-") as folder:
         words = ["merge", *flags_of(filter=filter, threads=threads, scene=scene._source)]
         if pilot is not None:
@@ -88,7 +89,7 @@ def solve_elsewhere(scene: Scene | Path, next: Next, **options: Any) -> Map:
     The pilot and the audit are made here. ``next`` is asked for one increment after the other, and again from 0 on a finer mesh.
     """
     if options.get("group"):
-        raise ValueError("group: every group has a scene of its own; use isolux.cluster.solve")
+        raise wrong("group: every group has a scene of its own; use isolux.cluster.solve")
     return solve(scene, _increment=lambda _scene, *of: next(*of), **options)
 
 

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from isolux import _native
+from isolux._errors import wrong
 from isolux._grid import Grid
 from isolux._optional import needed
 from isolux._progress import Progress
@@ -68,10 +69,10 @@ def errors(
     every = [histories] if isinstance(histories, History) else list(histories)
     keys = {"time": ("elapsed_s", "time, s"), "rays": ("rays", "rays")}
     if against not in keys:
-        raise ValueError(f"against is {against!r}; choose 'time' or 'rays'")
+        raise wrong(f"against is {against!r}; choose 'time' or 'rays'")
     key, words = keys[against]
     if not any(np.isfinite(history.array("error")).any() for history in every):
-        raise ValueError("no state with an error; give the History to isolux.solve as callback")
+        raise wrong("no state with an error; give the History to isolux.solve as callback")
     ax = _axes(ax)
     for history, colour in zip(every, _colours()):
         along, error = history.array(key), history.array("error")
@@ -126,7 +127,7 @@ def grid(
     colouring = needed("matplotlib.colors")
     lux = _known(of.values["illuminance_lx"])
     if not lux.count():
-        raise ValueError(f"no value is known at any point of the grid {of.name!r}")
+        raise wrong(f"no value is known at any point of the grid {of.name!r}")
     ax = _axes(ax)
     ny, nx = lux.shape
     u, v = (of.border_m + (np.arange(n) + 0.5) * d for n, d in zip((nx, ny), of.spacing_m))
@@ -170,7 +171,7 @@ def false_colour(
     values = _known(lux)
     positive = values[values > 0] if logarithmic else values
     if not positive.count():
-        raise ValueError("no value is known; a logarithmic scale needs one above 0")
+        raise wrong("no value is known; a logarithmic scale needs one above 0")
     low = float(positive.min()) if logarithmic else min(0.0, float(values.min()))
     low, high = limits or (low, float(values.max()))
     norm = colouring.LogNorm if logarithmic else colouring.Normalize

@@ -6,8 +6,9 @@ from typing import Any
 
 from isolux import _solve
 from isolux._call import Path
+from isolux._errors import wrong
 from isolux._map import Map
-from isolux._scene import Scene, load
+from isolux._scene import Scene, as_scene
 from isolux.cluster._feed import Feed
 from isolux.cluster._ray import connected
 
@@ -31,8 +32,8 @@ def solve(
     """
     for name, value in (("workers", workers), ("worker_threads", worker_threads)):
         if value is not None and value < 1:
-            raise ValueError(f"{name} is {value}; give at least 1")
-    scene = scene if isinstance(scene, Scene) else load(scene)
+            raise wrong(f"{name} is {value}; give at least 1")
+    scene = as_scene(scene)
     cpus = workers * worker_threads if workers else None
     with connected(address, cpus) as ray:
         feed = Feed(ray, workers, worker_threads)

@@ -12,7 +12,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from isolux._call import Path
-from isolux._errors import InputError
+from isolux._errors import InputError, wrong
 from isolux._scene import load
 from isolux.cluster import _ray
 
@@ -70,7 +70,7 @@ def study(
     """
     for name, value in (("workers", workers), ("threads", threads)):
         if value is not None and value < 1:
-            raise ValueError(f"{name} is {value}; give at least 1")
+            raise wrong(f"{name} is {value}; give at least 1")
     asked = [dict(variant) for variant in variants]
     keys = [_key(number, variant) for number, variant in enumerate(asked)]
     file = FilePath(output) if output is not None else None
@@ -173,8 +173,8 @@ def _plain(value: Any) -> Any:
 def _key(number: int, variant: Variant) -> str:
     try:
         return json.dumps(variant, sort_keys=True, default=_plain)
-    except TypeError as wrong:
-        raise ValueError(f"variant {number}: {wrong}") from None
+    except TypeError as failure:
+        raise wrong(f"variant {number}: {failure}") from None
 
 
 def _line(key: str, row: Mapping[str, Any]) -> str:
@@ -209,7 +209,7 @@ def _known(file: FilePath) -> dict[str, dict[str, Any]]:
                 file.write_text("".join(lines[:-1]), encoding="utf-8")
                 break
             text = f"{file}: line {number} is no row of a study; name another file, or remove it"
-            raise ValueError(text) from None
+            raise wrong(text) from None
         if "error" not in row:
             found[key] = row
     return found
