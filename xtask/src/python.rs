@@ -24,7 +24,7 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
                 "--concise",
                 "--mypy-config-file",
                 "pyproject.toml",
-                "isolux",
+                "isolux._native",
             ]),
             "stubtest",
         )?;

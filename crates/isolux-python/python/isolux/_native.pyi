@@ -7,7 +7,7 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Map", "Scene", "command", "defect", "run"]
+__all__ = ["Map", "PartMaker", "Scene", "colours", "command", "defect", "errors", "exact", "run"]
 
 _Array = npt.NDArray[np.float64]
 _Path = str | os.PathLike[str]
