@@ -35,9 +35,9 @@ cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask page    of it, the tests of the walk-through's page, and whether its built file is that of its sources
 cargo xtask walk    of it, the walk-through in Chromium, beside what the command says of the same maps
-cargo xtask loader three  of it, the loader of three.js in Chromium, beside what the command says of the same map
-cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
-cargo xtask colours of it, differences of colours beside colour-science
+cargo xtask loader three  of --all, the loader of three.js in Chromium, beside what the command says of the same map
+cargo xtask lamps   of --all, photometric files beside Radiance's ies2rad and photompy
+cargo xtask colours of --all, differences of colours beside colour-science
 cargo xtask python  of it, the wheel of the package for Python, its tests and its types
 cargo xtask python --notebooks  of --all, the example notebooks, and exchange with other packages
 cargo xtask cluster of --all, the package for Python on clusters of Ray that lose workers and nodes

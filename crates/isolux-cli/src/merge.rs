@@ -10,7 +10,7 @@ use crate::output::OutputPath;
 use crate::part_files::{read_part, read_pilot, write_part};
 use crate::progress::Reporter;
 use crate::report::Report;
-use crate::solving::unsolvable;
+use crate::solving::{Solved, tell_of_end, unsolvable};
 use crate::{map_file, memory, parted, request, source};
 use isolux::engine::{SolveError, Watch, solve_merged};
 use isolux_formats::checkpoint::Part;
@@ -68,6 +68,16 @@ pub(crate) fn run(flags: &MergeFlags, json: bool) -> Result<Outcome, Failure> {
         other => unsolvable(other, (&scene, &path)),
     })?;
     map_file::write(&output, &scene, &solution.map)?;
+    let outcome = match solution.map.provenance.complete {
+        true => Outcome::Done,
+        false => Outcome::StoppedEarly,
+    };
+    let solved = Solved { solution, outcome, beyond: None };
+    // Of few increments the error is not known yet.
+    if solved.solution.map.provenance.accuracy.is_some() {
+        tell_of_end(&solved, &request);
+    }
+    let Solved { solution, .. } = solved;
     let report = Report::of((&scene, &solution.map), solution.time_s, &output);
     let report = report.with_energy(energy::of_run(&scene, &solution.map));
     if json {
@@ -75,7 +85,7 @@ pub(crate) fn run(flags: &MergeFlags, json: bool) -> Result<Outcome, Failure> {
     } else {
         print(&report.text())?
     }
-    Ok(if solution.map.provenance.complete { Outcome::Done } else { Outcome::StoppedEarly })
+    Ok(outcome)
 }
 
 /// All parts as one.

@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// Reads the result of a pilot.
 pub(crate) fn read_pilot(path: &Path, max_bytes: u64) -> Result<PilotState, Failure> {
-    let remedy = "remove it: the same pilot is made again";
+    let remedy = "leave it out: the same pilot is made again";
     read(path, max_bytes, checkpoint::pilot, remedy)
 }
 
@@ -22,7 +22,7 @@ pub(crate) fn write_pilot(path: &Path, pilot: &PilotState) -> Result<(), Problem
 
 /// Reads a part of a run.
 pub(crate) fn read_part(path: &Path, max_bytes: u64) -> Result<Part, Failure> {
-    read(path, max_bytes, checkpoint::part, "make this part again")
+    read(path, max_bytes, checkpoint::part, "leave it out, or make this part again")
 }
 
 /// Writes a part of a run.

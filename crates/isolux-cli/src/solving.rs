@@ -81,7 +81,7 @@ pub(crate) fn solve(
 }
 
 /// Why a run has ended before its accuracy, unless somebody or the clock has stopped it; or reached it on a map without light.
-fn tell_of_end(solved: &Solved, request: &SolveRequest) {
+pub(crate) fn tell_of_end(solved: &Solved, request: &SolveRequest) {
     let map = &solved.solution.map;
     let limit_s = request.time_limit.map_or(f64::INFINITY, |limit| limit.as_secs_f64());
     let is_dark = || map.values.iter().flatten().all(|value| value.illuminance_lx() == 0.0);

@@ -44,7 +44,10 @@ fn parts_that_cannot_be_merged_are_named() {
         (&["a.part", "other.part"], "other.part: it differs from the first part in the seed"),
         (&["b.part"], "increments 0..1 are in no part"),
         (&["cut.part"], "cut.part: its contents do not match their checksum"),
-        (&["note.part"], "note.part: it is not a checkpoint"),
+        (
+            &["note.part"],
+            "note.part: it is not a checkpoint, a pilot or a part of a run of isolux; give another file",
+        ),
         (&["none.part"], "none.part: does not exist"),
     ] {
         let ran = home.run(&[&["merge", "-o", "m.glb"], words].concat());

@@ -13,6 +13,7 @@ const MAGIC: &[u8; 8] = b"ISOLUXCK";
 const VERSION: u32 = 2;
 const PREFIX_BYTES: usize = 16;
 const HASH_BYTES: usize = blake3::OUT_LEN;
+const NO_CHECKPOINT: &str = "it is not a checkpoint, a pilot or a part of a run of isolux";
 const START_ANEW: &str = "remove it, and compute anew what it was of";
 
 #[derive(Serialize, Deserialize)]
@@ -63,6 +64,9 @@ pub fn to_bytes(checkpoint: &Checkpoint) -> Result<Vec<u8>, String> {
 /// Reads a checkpoint of any origin that is no longer than `max_bytes`.
 pub fn read(path: &Path, max_bytes: u64) -> Result<Checkpoint, Problem> {
     let bytes = whole(path, max_bytes)?;
+    if !bytes.starts_with(MAGIC) {
+        return Err(Problem::new(path, "", NO_CHECKPOINT, "give another file"));
+    }
     from_bytes(&bytes).map_err(|what| Problem::new(path, "", what, START_ANEW))
 }
 
@@ -86,7 +90,7 @@ fn whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, Problem> {
 pub fn from_bytes(bytes: &[u8]) -> Result<Checkpoint, String> {
     const CUT: &str = "the checkpoint is cut short";
     if !bytes.starts_with(MAGIC) {
-        return Err("it is not a checkpoint of isolux".into());
+        return Err(NO_CHECKPOINT.into());
     }
     let length = bytes.len().checked_sub(HASH_BYTES).ok_or(CUT)?;
     let (content, hash) = bytes.split_at(length);
