@@ -3,7 +3,7 @@
 use super::request::{SolveError, SolveRequest};
 use crate::engine::method::RadiositySettings;
 use crate::engine::plan::PilotResult;
-use crate::engine::ray::{Accumulator, Sums};
+use crate::engine::ray::Sums;
 use crate::map::Method;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -156,18 +156,4 @@ impl RunIdentity {
         ];
         same.iter().find(|(_, same)| !same).map(|(what, _)| *what)
     }
-}
-
-/// Puts saved sums back into an accumulator. The error reports a different number of receivers.
-pub(crate) fn restore(
-    accumulator: &mut Accumulator,
-    saved: &[Sums],
-    increments: u64,
-) -> Result<(), SolveError> {
-    if accumulator.sums.len() != saved.len() {
-        return Err(SolveError::OtherRun("the number of receivers"));
-    }
-    accumulator.sums.copy_from_slice(saved);
-    accumulator.increments = increments;
-    Ok(())
 }

@@ -2,9 +2,9 @@
 
 use super::super::part::Segment;
 use super::super::request::SolveError;
-use super::super::state::{RunState, restore};
+use super::super::state::RunState;
 use super::{Engine, Work};
-use crate::engine::ray::Accumulator;
+use crate::engine::ray::{Accumulator, Sums};
 
 impl Work<'_, '_> {
     /// The number of receivers.
@@ -37,32 +37,34 @@ impl Work<'_, '_> {
 
     /// Adds increments made elsewhere. The error names what has another size than here.
     pub(crate) fn add(&mut self, made: &Segment) -> Result<(), SolveError> {
-        let (checks, lacking) = made
-            .checks
-            .split_at_checked(self.checks.sums.sums.len())
-            .ok_or(SolveError::OtherRun("the number of check points"))?;
-        let into = [
-            (&mut self.sums, made.receivers.as_slice(), "the number of receivers"),
-            (&mut self.checks.sums, checks, "the number of check points"),
-            (&mut self.checks.lacking, lacking, "the number of checked elements"),
-            (&mut self.given_up, &made.given_up, "the sum of the light given up"),
-        ];
-        for (sums, made_sums, what) in into {
-            sums.merge(made_sums, made.count).map_err(|_| SolveError::OtherRun(what))?;
-        }
+        self.merge([&made.receivers, &made.checks, &made.given_up], made.count)
+    }
+
+    /// Adds the increments of a saved run to none.
+    pub(crate) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
+        self.merge([&saved.receivers, &saved.checks, &saved.given_up], saved.increments)?;
+        self.look_what_is_left();
         Ok(())
     }
 
-    pub(crate) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
-        restore(&mut self.sums, &saved.receivers, saved.increments)?;
-        let (checks, lacking) = saved
-            .checks
+    /// Adds sums of receivers, of check points with parts of elements, and of the light given up.
+    fn merge(
+        &mut self,
+        [receivers, checks, given_up]: [&[Sums]; 3],
+        increments: u64,
+    ) -> Result<(), SolveError> {
+        let (checks, lacking) = checks
             .split_at_checked(self.checks.sums.sums.len())
             .ok_or(SolveError::OtherRun("the number of check points"))?;
-        restore(&mut self.checks.sums, checks, saved.increments)?;
-        restore(&mut self.checks.lacking, lacking, saved.increments)?;
-        restore(&mut self.given_up, &saved.given_up, saved.increments)?;
-        self.look_what_is_left();
+        let into = [
+            (&mut self.sums, receivers, "the number of receivers"),
+            (&mut self.checks.sums, checks, "the number of check points"),
+            (&mut self.checks.lacking, lacking, "the number of checked elements"),
+            (&mut self.given_up, given_up, "the sum of the light given up"),
+        ];
+        for (sums, more, what) in into {
+            sums.merge(more, increments).map_err(|_| SolveError::OtherRun(what))?;
+        }
         Ok(())
     }
 }
