@@ -12,8 +12,11 @@ pub(super) const CASES: [Case; 6] = [
     case("groups", "benchmarks/golden/groups.toml", "hybrid", "2%").with(&["--group"]),
 ];
 
-/// A run that is long enough to be watched.
-pub(super) const LONG: Case = case("long", "builtin:cube", "hybrid", "0.15%");
+/// A run that is long enough to be watched: it keeps states on the way.
+pub(super) const LONG: Case = case("long", "builtin:cube", "hybrid", "0.03%");
+
+/// A run that lasts longer than another one waits for its output.
+pub(super) const MEDIUM: Case = case("medium", "builtin:cube", "hybrid", "0.1%");
 
 /// Runs of a part of a second, for processors that are played by a program.
 pub(super) const SMALL: [Case; 4] = [

@@ -1,6 +1,6 @@
 //! Two runs with one output: the second is refused, and the first is not disturbed.
 
-use super::cases::{CASES, LONG};
+use super::cases::{LONG, MEDIUM};
 use super::dice::Dice;
 use super::runs::{Bench, CHECKPOINT, Maps, ended, is_over, signal, start, wait};
 use super::told::Told;
@@ -13,8 +13,8 @@ use std::time::Duration;
 const REFUSED: &str = "another run is writing it";
 /// How often it is looked for a state.
 const GLANCE: Duration = Duration::from_millis(20);
-/// A run of a second or two.
-const SHORT: usize = 0;
+/// A run has to last so long that another one, which waits a second for the output, still finds it taken.
+const LEAST: Duration = Duration::from_secs(2);
 
 /// Starts two runs at a time.
 pub(super) fn run(
@@ -24,7 +24,10 @@ pub(super) fn run(
 ) -> Result<Value, String> {
     let mut dice = Dice::new(seed, "twice");
     let count = count.div_ceil(10);
-    let (whole, _) = bench.whole(&CASES[SHORT], "2")?;
+    let (whole, lasted) = bench.whole(&MEDIUM, "2")?;
+    if lasted < LEAST {
+        return Err(format!("two runs at once: one lasts {lasted:?}, too short to meet another"));
+    }
     let mut fine = 0;
     for _ in 0..count {
         fine += u64::from(at_once(bench, &whole, told)?);
@@ -42,7 +45,7 @@ pub(super) fn run(
 /// Whether of two runs one is refused, and the other ends as if it were alone.
 fn at_once(bench: &Bench, whole: &Maps, told: &mut Told) -> Result<bool, String> {
     bench.clear()?;
-    let run = || start(bench.solve(&CASES[SHORT], &[], &["--threads", "1"]));
+    let run = || start(bench.solve(&MEDIUM, &[], &["--threads", "1"]));
     let (a, b) = (run()?, run()?);
     let both = [wait(a)?, wait(b)?];
     let refused = both.iter().filter(|e| e.code == Some(2) && e.said.contains(REFUSED)).count();
