@@ -45,10 +45,10 @@ fn unpacked(folder: &Path, python: &Path) -> Result<PathBuf, String> {
     Ok(files)
 }
 
-/// Builds isolux as its tests do; where it is.
+/// Builds isolux as its tests do; where it is. All packages are chosen, so that features are those of the tests and nothing is built twice.
 pub(crate) fn built(root: &Path) -> Result<PathBuf, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let build = ["build", "--quiet", "--package", "isolux-cli"];
+    let build = ["build", "--quiet", "--workspace", "--bin", "isolux"];
     wait(Command::new(cargo).args(build).current_dir(root), "cargo build")?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     let folder = root.join(target.unwrap_or_else(|| "target".into())).join("debug");

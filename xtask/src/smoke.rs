@@ -1,5 +1,6 @@
 //! The command line from a scene to a map to values, as a user runs it.
 
+use crate::lamps::built;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -232,10 +233,8 @@ fn expect_middle_of_wall(csv: &str) -> Result<(), String> {
 
 /// Runs the command and gives what it printed.
 pub(crate) fn isolux(root: &Path, arguments: &[&str]) -> Result<String, String> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let line = format!("isolux {}", arguments.join(" "));
-    let output = Command::new(cargo)
-        .args(["run", "--quiet", "--package", "isolux-cli", "--"])
+    let output = Command::new(built(root)?)
         .args(arguments)
         .current_dir(root)
         .output()
