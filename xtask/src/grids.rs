@@ -1,7 +1,7 @@
 //! Judges of grids for VTK: VTK itself and PyVista.
 
+use crate::built::built;
 use crate::judge::optional;
-use crate::lamps::built;
 use crate::peers::{python_of_judge, wait};
 use crate::smoke::Room;
 use std::path::Path;

@@ -1,5 +1,6 @@
 //! Judges of the reading of photometric files: Radiance's ies2rad and photompy, through Python.
 
+use crate::built::built;
 use crate::judge::optional;
 use crate::peers::{python_of_judge, wait};
 use std::path::{Path, PathBuf};
@@ -43,14 +44,4 @@ fn unpacked(folder: &Path, python: &Path) -> Result<PathBuf, String> {
     let archive = folder.join(format!("{name}.tar.gz"));
     wait(Command::new(python).args(unpack).arg(archive).arg(folder), "tarfile")?;
     Ok(files)
-}
-
-/// Builds isolux as its tests do; where it is. All packages are chosen, so that features are those of the tests and nothing is built twice.
-pub(crate) fn built(root: &Path) -> Result<PathBuf, String> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let build = ["build", "--quiet", "--workspace", "--bin", "isolux"];
-    wait(Command::new(cargo).args(build).current_dir(root), "cargo build")?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
-    let folder = root.join(target.unwrap_or_else(|| "target".into())).join("debug");
-    Ok(folder.join(format!("isolux{}", std::env::consts::EXE_SUFFIX)))
 }

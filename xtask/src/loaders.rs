@@ -2,8 +2,8 @@
 
 mod bevy;
 
+use crate::built::built;
 use crate::judge::optional;
-use crate::lamps::built;
 use crate::peers::{python_of_judge, wait};
 use crate::worlds::missing_for_pages;
 use std::path::Path;

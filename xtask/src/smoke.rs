@@ -1,6 +1,6 @@
 //! The command line from a scene to a map to values, as a user runs it.
 
-use crate::lamps::built;
+use crate::built::built;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

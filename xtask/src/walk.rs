@@ -1,6 +1,6 @@
 //! Judge of the walk-through: its page in Chromium, beside what the command says of the same maps.
 
-use crate::lamps::built;
+use crate::built::built;
 use crate::peers::wait;
 use crate::worlds::missing_for_pages;
 use std::path::Path;

@@ -16,18 +16,34 @@ pub(crate) fn read(words: impl Iterator<Item = OsString>) -> Result<Flags, u8> {
     parsed(&words).map_err(|error| {
         // Nobody may be there to read it.
         let _ = error.print();
-        let is_help = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
-        if !is_help && asks_for_json(&words) {
+        if !is_help(&error) && asks_for_json(&words) {
             let troubles = [of_arguments(&error)];
             let _ = console::print_json(&trouble::json(&troubles, BAD_INPUT));
         }
-        if is_help { 0 } else { BAD_INPUT }
+        if is_help(&error) { 0 } else { BAD_INPUT }
     })
 }
 
-/// The same without a word: help is wrong, too.
-pub(crate) fn of_call(words: &[OsString]) -> Result<Flags, Trouble> {
-    parsed(words).map_err(|error| of_arguments(&error))
+/// What arguments ask for.
+pub(crate) enum Asked {
+    /// Work.
+    For(Box<Flags>),
+    /// This text.
+    Help(String),
+}
+
+/// The same without a word.
+pub(crate) fn of_call(words: &[OsString]) -> Result<Asked, Trouble> {
+    match parsed(words) {
+        Ok(flags) => Ok(Asked::For(Box::new(flags))),
+        Err(error) if is_help(&error) => Ok(Asked::Help(error.render().to_string())),
+        Err(error) => Err(of_arguments(&error)),
+    }
+}
+
+/// Whether nothing is wrong: what was asked for is text.
+fn is_help(error: &clap::Error) -> bool {
+    matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion)
 }
 
 fn parsed(words: &[OsString]) -> Result<Flags, clap::Error> {
@@ -42,7 +58,10 @@ fn asks_for_json(words: &[OsString]) -> bool {
 /// What is wrong, without the usage that is printed below it.
 fn of_arguments(error: &clap::Error) -> Trouble {
     let text = error.render().to_string();
-    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+    if matches!(
+        error.kind(),
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand | ErrorKind::MissingSubcommand
+    ) {
         return Trouble {
             message: "a subcommand is missing".to_owned(),
             file: None,

@@ -5,6 +5,7 @@ use crate::energy;
 use crate::failure::{Failure, Outcome};
 use crate::flags::AuditFlags;
 use crate::map_file;
+use crate::meter::Meter;
 use crate::quantity::{show_count, show_share, significant};
 use crate::rounded::with_error;
 use crate::shown::name;
@@ -29,7 +30,11 @@ pub(crate) fn run(flags: &AuditFlags, json: bool) -> Result<Outcome, Failure> {
         number: u32::MAX,
         ..default
     };
-    let audit = engine::audit(&scene, &map, &settings).ok_or_else(|| {
+    let mut meter = Meter::new("audit", None);
+    let watch = &mut |share| meter.tell(share);
+    let audit = engine::audit_watched(&scene, &map, &settings, watch);
+    drop(meter);
+    let audit = audit.ok_or_else(|| {
         let path = flags.map.display();
         Failure::bad_input(format!(
             "{path}: there is nothing to audit: the map has no reported error, knows next to none of its surfaces, or has no light; solve it with more time"

@@ -2,22 +2,23 @@
 //! terminals show and given what files get.
 
 use crate::reading::Reading;
+use crate::stop::Stop;
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_view::Picture;
 use std::cell::RefCell;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::Sender;
 
 /// Who has work done.
 pub struct Caller {
     /// What is in memory already, each by the name that words refer to it by.
     pub given: Vec<(PathBuf, Given)>,
-    /// Whether the work is to end, with what it has come to.
-    pub wants_end: Arc<AtomicBool>,
+    /// What is wanted of the work.
+    pub stop: Arc<Stop>,
     /// Whether the caller has the increments of runs made: it is then told which are wanted.
     pub makes_increments: bool,
     /// Hears of all, on the thread that works.
@@ -42,6 +43,8 @@ pub enum Told {
     Progress(String),
     /// What `--json` prints.
     Json(String),
+    /// Help, or the version: what is printed in place of a result.
+    Text(String),
     /// A map that is written to this file.
     Map(PathBuf, Box<(Scene, IlluminationMap)>),
     /// A picture that is written.
@@ -80,6 +83,8 @@ pub(crate) struct Call {
     pub(crate) reading: Reading,
     /// Bytes that a map or a lightmap may take.
     pub(crate) max_memory: Option<u64>,
+    /// What it was asked for by.
+    pub(crate) words: Vec<OsString>,
 }
 
 thread_local! {
@@ -89,6 +94,20 @@ thread_local! {
 /// The call that this thread works for.
 pub(crate) fn here() -> Option<Rc<Call>> {
     HERE.with_borrow(Clone::clone)
+}
+
+/// Ends the work on this thread if its caller has left. Long work looks now and then, before it writes, too.
+pub(crate) fn look() {
+    if let Some(call) = here() {
+        call.stop().look();
+    }
+}
+
+/// Whether the caller has left, for threads that share the work of this one: what they have not begun they leave out, and then this one
+/// looks. To unwind from each of a million places would take a minute.
+pub(crate) fn lookout() -> impl Fn() -> bool + Send + Sync {
+    let stop = here().map(|call| call.stop());
+    move || stop.as_ref().is_some_and(|stop| stop.is_left())
 }
 
 /// Works for a caller.
@@ -111,9 +130,16 @@ impl Call {
         (self.caller.tell)(told);
     }
 
-    /// Whether the work is to end.
-    pub(crate) fn wants_end(&self) -> Arc<AtomicBool> {
-        self.caller.wants_end.clone()
+    /// What the caller wants of the work.
+    pub(crate) fn stop(&self) -> Arc<Stop> {
+        Arc::clone(&self.caller.stop)
+    }
+
+    /// Words that may name files; what was handed in is none.
+    pub(crate) fn names_of_files(&self) -> Vec<String> {
+        let is_file = |word: &&OsString| self.given(Path::new(word)).is_none();
+        let words = self.words.iter().filter(is_file);
+        words.map(|word| word.to_string_lossy().into_owned()).collect()
     }
 
     /// Whether the caller has increments made.

@@ -5,10 +5,12 @@ pub use crate::caller::{Caller, Given, Told, Wanted};
 pub use crate::failure::Failure;
 pub use crate::part_making::Make;
 pub use crate::probe::Way;
+pub use crate::stop::Stop;
 pub use crate::trouble::Trouble;
 
+use crate::arguments::Asked;
 use crate::caller::{Call, called};
-use crate::flags::Flags;
+use crate::flags::{Command, Flags};
 use crate::reading::Reading;
 use crate::{arguments, carry_out, map_file, part_making, probe, request, source};
 use isolux::engine::ProbePoint;
@@ -20,19 +22,27 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 /// Carries out a subcommand with its flags, as if `isolux --json` stood before them, to its exit code. `--max-memory` bounds maps and
-/// lightmaps alone.
+/// lightmaps alone. What serves pages until it is stopped is refused.
 pub fn run(words: &[OsString], caller: Caller) -> Result<u8, Failure> {
-    let flags = flags(words)?;
-    let threads = flags.command.threads();
-    in_call(&flags, threads, caller, || carry_out(&flags).map(|outcome| outcome.exit_code()))
+    let flags = match arguments::of_call(&with_json(words)).map_err(wrong)? {
+        Asked::For(flags) => flags,
+        Asked::Help(text) => {
+            (caller.tell)(Told::Text(text));
+            return Ok(0);
+        }
+    };
+    refuse_servers(&flags.command)?;
+    in_call((&flags, words), caller, || carry_out(&flags).map(|outcome| outcome.exit_code()))
 }
 
 /// Reads a scene; `words` are those of `check`.
 pub fn read_scene(words: &[OsString], caller: Caller) -> Result<Scene, Failure> {
-    let flags = flags(words)?;
-    in_call(&flags, None, caller, || match &flags.command {
-        crate::flags::Command::Check(asked) => source::read_scene(&asked.scene),
-        _ => Err(Failure::bad_input("a scene is read by the words of `check`")),
+    let Asked::For(flags) = arguments::of_call(&with_json(words)).map_err(wrong)? else {
+        return Err(not_check());
+    };
+    in_call((&flags, words), caller, || match &flags.command {
+        Command::Check(asked) => source::read_scene(&asked.scene),
+        _ => Err(not_check()),
     })
 }
 
@@ -95,22 +105,43 @@ pub fn traced(
     by_itself(caller, || probe::traced((scene, name), points, &probe::settings(paths, seed)))
 }
 
-fn flags(words: &[OsString]) -> Result<Flags, Failure> {
-    let all: Vec<OsString> =
-        ["isolux", "--json"].into_iter().map(OsString::from).chain(words.iter().cloned()).collect();
-    arguments::of_call(&all).map_err(|wrong| Failure::BadInput(vec![wrong]))
+fn with_json(words: &[OsString]) -> Vec<OsString> {
+    ["isolux", "--json"].into_iter().map(OsString::from).chain(words.iter().cloned()).collect()
+}
+
+fn wrong(what: Trouble) -> Failure {
+    Failure::BadInput(vec![what])
+}
+
+fn not_check() -> Failure {
+    Failure::bad_input("a scene is read by the words of `check`")
+}
+
+/// Refuses what would not come back by itself.
+fn refuse_servers(command: &Command) -> Result<(), Failure> {
+    match command {
+        Command::View(_) => Err(Failure::bad_input(
+            "view serves pages until it is stopped, so that this call would not return; use m.view() in a notebook, \
+             m.export(\"map.html\"), or the command in a terminal",
+        )),
+        Command::Solve(asked) if asked.live => Err(Failure::bad_input(
+            "--live serves pages until they are closed, so that this call might not return; use the command in a terminal, or follow \
+             the run by a callback",
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn in_call<T: Send>(
-    flags: &Flags,
-    threads: Option<u16>,
+    (flags, words): (&Flags, &[OsString]),
     caller: Caller,
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> Result<T, Failure> {
     let reading = source::reading_of(flags)?;
     let max_memory = flags.max_memory;
-    let pool = request::threads_of_call(threads)?;
-    pool.install(|| called(Call { caller, reading, max_memory }, work))
+    let pool = request::threads_of_call(flags.command.threads())?;
+    let call = Call { caller, reading, max_memory, words: words.to_vec() };
+    pool.install(|| called(call, work))
 }
 
 fn by_itself<T: Send>(
@@ -118,6 +149,6 @@ fn by_itself<T: Send>(
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> Result<T, Failure> {
     let pool = request::threads_of_call(None)?;
-    let call = Call { caller, reading: Reading::default(), max_memory: None };
+    let call = Call { caller, reading: Reading::default(), max_memory: None, words: Vec::new() };
     pool.install(|| called(call, work))
 }

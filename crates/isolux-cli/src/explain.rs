@@ -3,7 +3,7 @@
 use crate::quantity::{flux, show_bytes, show_seconds, show_share};
 use isolux::engine::SolveRequest;
 use isolux::map::Method;
-use isolux::scene::{LuminaireKind, Scene};
+use isolux::scene::Scene;
 
 /// One sentence a line.
 pub(crate) fn lines(scene: &Scene, request: &SolveRequest) -> Vec<String> {
@@ -26,10 +26,9 @@ pub(crate) fn lines(scene: &Scene, request: &SolveRequest) -> Vec<String> {
 }
 
 fn light(scene: &Scene) -> String {
-    let is_parallel = |kind: &LuminaireKind| matches!(kind, LuminaireKind::Directional { .. });
-    let parallel = scene.luminaires().iter().filter(|l| is_parallel(&l.kind)).count();
+    let parallel = scene.luminaires().iter().filter(|l| l.kind.is_infinitely_far()).count();
     format!(
-        "Light comes from {} point luminaires, {parallel} parallel ones and {} emitting surfaces; \
+        "Light comes from {} point luminaires, {parallel} that are infinitely far away and {} emitting surfaces; \
          luminous flux {}.",
         scene.luminaires().len() - parallel,
         scene.area_luminaires().len(),

@@ -36,6 +36,11 @@ pub(crate) struct Flags {
     /// Let scenes name files outside of their folders: textures, buffers, includes, photometry. Give it only for scenes that you trust
     #[arg(long, global = true)]
     pub allow_outside: bool,
+    /// The sky and the sun of scenes, in place of theirs: a kind and keys of [sky] in scene.toml, as "overcast, horizontal_lx=10000" or
+    /// "clear, sun.azimuth_deg=180, sun.elevation_deg=40, sun_normal_lx=80000"; a weather file and a time, as "berlin.epw,
+    /// time=2026-06-21T12:00:00"; or a .toml file with these keys
+    #[arg(long, global = true, value_name = "SKY")]
+    pub sky: Option<String>,
     /// Memory that scenes, light and pictures may take, 64 MiB of the program beside; what needs more is refused: 8GiB, 500MB
     /// [default: 8GiB for a map or a lightmap, else what the machine gives]
     #[arg(long, global = true, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true)]
@@ -59,12 +64,16 @@ pub(crate) enum MaterialsName {
 pub(crate) enum Command {
     /// Compute the illumination map of a scene
     Solve(SolveFlags),
-    /// Say what a scene, a map or a photometric file holds
+    /// Say what a scene, a map, a photometric file or a part of a run holds
     Info(InfoFlags),
     /// Read a map, or trace paths, at points
     Probe(ProbeFlags),
     /// Illuminance on calculation grids: mean, least, greatest, uniformity
     Grid(GridFlags),
+    /// The unified glare rating (UGR) of observers in a map
+    Glare(GlareFlags),
+    /// A year of daylight on calculation grids: daylight factor, EN 17037, DA, sDA, ASE, UDI
+    Daylight(DaylightFlags),
     /// Compute the light of a scene and write it for an engine: solve and export in one
     Bake(BakeFlags),
     /// Draw views from a map, or of a scene
@@ -124,6 +133,7 @@ impl Command {
             Self::Info(flags) => (&flags.file, &flags.further),
             Self::Render(flags) => (&flags.map, &flags.further),
             Self::Grid(flags) => (&flags.source, &flags.further),
+            Self::Daylight(flags) => (&flags.source, &flags.further),
             Self::Probe(flags) => (&flags.source, &flags.further),
             _ => return None,
         };
@@ -184,8 +194,8 @@ pub(crate) struct ManFlags {
   isolux info map.glb
   isolux info lamp.ies --json")]
 pub(crate) struct InfoFlags {
-    /// A map (.glb), a scene (.gltf, .glb, .obj, .ply, .rad, .stl, .xml, scene.toml, builtin:NAME), a photometric file (.ies, .ldt) or a cache
-    /// of samples
+    /// A map (.glb), a scene (.gltf, .glb, .obj, .ply, .rad, .stl, .xml, scene.toml, builtin:NAME), a photometric file (.ies, .ldt), a
+    /// weather file (.epw), a cache of samples, or what is kept of a run (.part, .pilot, .checkpoint)
     pub file: PathBuf,
     #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
     pub further: Vec<PathBuf>,
@@ -275,6 +285,54 @@ pub(crate) struct GridFlags {
     pub source: PathBuf,
     #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
     pub further: Vec<PathBuf>,
+    #[command(flatten)]
+    pub grid: GridChoice,
+    /// The share of the initial light that is left when maintained: 0.8 or 80%; 1 is all of it [default: the grid's, else 1]
+    #[arg(long, value_name = "SHARE", value_parser = quantity::maintenance_factor, allow_hyphen_values = true)]
+    pub maintenance_factor: Option<f64>,
+    /// Of a scene: solve it to this accuracy [default: 1%, or what --require needs]
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
+    pub accuracy: Option<f64>,
+    /// What has to hold on a grid, or on all: "desks: Em >= 500, U0 >= 0.6", or "desks: EN 12464-1 34.2"; may be repeated.
+    /// Exit code 1 unless it is surely met; a scene is solved until that is decided
+    #[arg(long, value_name = "WHAT")]
+    pub require: Vec<String>,
+    /// Write all points with their values
+    #[arg(long, value_name = "FILE.csv")]
+    pub csv: Option<PathBuf>,
+    /// Significant digits of illuminances in the CSV [default: two below the first digit of the standard error]
+    #[arg(long, value_name = "N", value_parser = quantity::digits, allow_hyphen_values = true, requires = "csv")]
+    pub digits: Option<u8>,
+    /// Draw the one grid as a plan: the room cut at its height, luminaires, values, isolux lines; u to the right and v up
+    #[arg(short = 'o', long, value_name = "FILE.png|FILE.svg")]
+    pub picture: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux glare map.glb
+  isolux glare map.glb --eye 1,2,1.2 --target 5,2,1.2 --json
+
+The rating is that of CIE 117:1995, with the position index of Guth and the indirect light at the eye. Luminaires shine from their luminous area. \
+Without --eye the cameras of the scene look. It is made for artificial light: for windows it says little.")]
+pub(crate) struct GlareFlags {
+    /// The map (.glb)
+    #[arg(value_name = "MAP.glb")]
+    pub map: PathBuf,
+    /// A camera of the scene as the observer; several: --camera again
+    #[arg(long, value_name = "NAME")]
+    pub camera: Vec<String>,
+    /// Where an observer's eye is, x,y,z, in metres and in the axes of the scene as written
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, conflicts_with = "camera")]
+    pub eye: Option<[f64; 3]>,
+    /// What it looks at
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "eye")]
+    pub target: Option<[f64; 3]>,
+}
+
+/// Which points.
+#[derive(Debug, Args)]
+pub(crate) struct GridChoice {
     /// One grid of the scene only
     #[arg(long, value_name = "NAME", conflicts_with_all = ["height", "corner"])]
     pub name: Option<String>,
@@ -297,21 +355,41 @@ pub(crate) struct GridFlags {
     /// shorter side, whichever is less; else none]
     #[arg(long, value_name = "M", value_parser = quantity::border_m, allow_hyphen_values = true)]
     pub border: Option<f64>,
-    /// The share of the initial light that is left when maintained: 0.8 or 80%; 1 is all of it [default: the grid's, else 1]
-    #[arg(long, value_name = "SHARE", value_parser = quantity::maintenance_factor, allow_hyphen_values = true)]
-    pub maintenance_factor: Option<f64>,
-    /// Of a scene: solve it to this accuracy [default: 1%]
-    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
-    pub accuracy: Option<f64>,
-    /// Write all points with their values
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux daylight office.toml --weather berlin.epw --height 0.8
+  isolux daylight office.toml --weather berlin.epw --name desks --csv points.csv --json
+
+Daylight coefficients are traced once for every point; every hour of the weather file is then a sum. Skies are those of Perez, the sun's \
+direct light is traced to where it is. Luminaires are switched off, blinds are not drawn. Intervals hold the noise of paths at 95 %.")]
+pub(crate) struct DaylightFlags {
+    /// The scene, with calculation grids or a --height; its own sky only tells where north is
+    #[arg(value_name = "SCENE")]
+    pub source: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
+    /// A year of weather (EnergyPlus)
+    #[arg(long, value_name = "FILE.epw")]
+    pub weather: PathBuf,
+    #[command(flatten)]
+    pub grid: GridChoice,
+    /// Hours of use of every day by standard time, from and to
+    #[arg(long, value_name = "FROM..TO", value_parser = quantity::hours_of_day, default_value = "8..18")]
+    pub hours: (u32, u32),
+    /// Reflectance of the ground beyond the scene in the hours of the year; the daylight factor has black ground
+    #[arg(long, value_name = "SHARE", value_parser = quantity::reflectance, default_value = "0.2", allow_hyphen_values = true)]
+    pub ground_reflectance: f64,
+    /// Paths from every point; more make intervals narrower
+    #[arg(long, value_name = "N", default_value_t = 16_384, value_parser = clap::value_parser!(u32).range(256..=16_777_216))]
+    pub paths: u32,
+    /// Seed of random numbers
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Write all points with their figures
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,
-    /// Significant digits of illuminances in the CSV [default: two below the first digit of the standard error]
-    #[arg(long, value_name = "N", value_parser = quantity::digits, allow_hyphen_values = true, requires = "csv")]
-    pub digits: Option<u8>,
-    /// Draw the one grid as a plan: the room cut at its height, luminaires, values, isolux lines; u to the right and v up
-    #[arg(short = 'o', long, value_name = "FILE.png|FILE.svg")]
-    pub picture: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

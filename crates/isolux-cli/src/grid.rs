@@ -1,8 +1,12 @@
 //! `isolux grid`: illuminance on calculation grids.
 
+pub(crate) mod choice;
+mod condition;
 mod figures;
 mod picture;
+mod requirement;
 mod result;
+mod tasks;
 mod warnings;
 
 use crate::console::{print, print_json};
@@ -10,17 +14,22 @@ use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
 use crate::maintained::{self, Maintained};
 use crate::output::OutputPath;
-use crate::quantity::significant;
-use crate::shown::{name, names};
 use crate::{map_file, solving, source};
+use condition::Verdict;
 use isolux::engine::{MapReader, SolveRequest};
-use isolux::geometry::{Point, Vector};
+use isolux::geometry::Point;
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
-use isolux::scene::{CalculationGrid, Scene, UpAxis};
+use isolux::scene::{CalculationGrid, Scene};
 use isolux_formats::Digits;
+use requirement::{Judged, Requirement, requirement};
 use result::GridResult;
 use serde::Serialize;
 use std::fmt::Write;
+
+/// Accuracies with which requirements are tried to be decided, one after the other: each costs some four times the one before.
+const ACCURACIES: [f64; 4] = [0.04, 0.02, 0.01, 0.005];
+/// The last of them: what is still undecided then is too near its bound.
+const FINEST: f64 = 0.0025;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
@@ -50,22 +59,21 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
             grids.len()
         )));
     }
+    let requirements = requirements(flags)?;
+    let read = |map: &IlluminationMap| {
+        let reader = MapReader::new(&scene, map);
+        let read = |grid: &CalculationGrid| GridResult::of(grid.clone(), (&scene, &reader));
+        grids.iter().map(read).collect::<Vec<GridResult>>()
+    };
     let (map, outcome) = match map {
         Some(map) => (map, Outcome::Done),
-        None => solved(flags, &scene)?,
+        None => decided(flags, &scene, &requirements, &read)?,
     };
     map_file::warn_of_unknown_error(&flags.source, &map);
-    let reader = MapReader::new(&scene, &map);
     let light = Maintained::of(&scene);
-    let results: Vec<GridResult> =
-        grids.into_iter().map(|grid| GridResult::of(grid, (&scene, &reader))).collect();
-    for GridResult { read, in_space, outside } in &results {
-        warnings::warn(
-            &read.grid.name,
-            (&read.values, outside),
-            in_space.then(|| map.caustic_share()),
-        );
-    }
+    let results = read(&map);
+    let judged = requirement::judge(&requirements, &results)?;
+    warn((&results, &judged), &map, light);
     if let Some(csv) = csv {
         csv.write(
             rows(&results, flags.digits.map_or(Digits::ByError, Digits::Significant)).as_bytes(),
@@ -76,11 +84,15 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     }
     if json {
         let grids = results.iter().map(|result| Report::of(result, light)).collect();
-        print_json(&Reports { grids })?;
+        print_json(&Reports { grids, requirements: &judged })?;
     } else {
         print(&figures::text(&results, light))?;
+        for judged in &judged {
+            print(&format!("{}\n", judged.line()))?;
+        }
     }
-    Ok(outcome)
+    let all_met = judged.iter().all(|judged| judged.verdict == Verdict::Met);
+    Ok(if all_met { outcome } else { Outcome::CheckFailed })
 }
 
 /// The grids asked for, as they are asked for.
@@ -88,105 +100,59 @@ fn grids(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failu
     if let Some(factor) = flags.maintenance_factor {
         maintained::refuse_second(factor, scene, &flags.source)?;
     }
-    let mut grids = match (flags.height, flags.corner.zip(flags.u.zip(flags.v))) {
-        (Some(height_m), _) => vec![working_plane(flags, scene, height_m)?],
-        (None, Some((corner, (u, v)))) => vec![CalculationGrid {
-            name: "grid".into(),
-            corner: Point::from(corner),
-            u: Vector::from(u),
-            v: Vector::from(v),
-            spacing_m: None,
-            border_m: 0.0,
-            maintenance_factor: 1.0,
-        }],
-        (None, None) => named(flags, scene)?,
-    };
+    let mut grids = choice::chosen(&flags.grid, &flags.source, scene)?;
     for grid in &mut grids {
-        grid.spacing_m = flags.spacing.or(grid.spacing_m);
-        grid.border_m = flags.border.unwrap_or(grid.border_m);
         grid.maintenance_factor = flags.maintenance_factor.unwrap_or(grid.maintenance_factor);
-        if let Some((what, remedy)) = grid.problem() {
-            return Err(Failure::bad_input(format!(
-                "grid `{}` {what}; {remedy}",
-                name(&grid.name)
-            )));
-        }
     }
     Ok(grids)
 }
 
-fn named(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
-    let all = scene.grids();
-    let source = flags.source.display();
-    if all.is_empty() {
-        return Err(Failure::bad_input(format!(
-            "{source}: has no calculation grids; give one with --height or --corner, --u and --v, or add \
-             [[grid]] to its scene.toml"
-        )));
+/// What figures do not say.
+fn warn((results, judged): (&[GridResult], &[Judged]), map: &IlluminationMap, light: Maintained) {
+    requirement::warn_of_initial(judged, results, light);
+    for GridResult { read, in_space, outside } in results {
+        let caustic = in_space.then(|| map.caustic_share());
+        warnings::warn(&read.grid.name, (&read.values, outside), caustic);
     }
-    let Some(name) = &flags.name else { return Ok(all.to_vec()) };
-    let found: Vec<CalculationGrid> = all.iter().filter(|g| g.name == *name).cloned().collect();
-    if found.is_empty() {
-        return Err(Failure::bad_input(format!(
-            "{source}: has no grid `{name}`; choose one of {}",
-            names(all.iter().map(|g| g.name.as_str()))
-        )));
-    }
-    Ok(found)
 }
 
-/// A horizontal grid over all of the floor plan, facing up.
-fn working_plane(
+/// What `--require` asks for.
+fn requirements(flags: &GridFlags) -> Result<Vec<Requirement>, Failure> {
+    let read = |text: &String| {
+        requirement(text).map_err(|what| Failure::bad_input(format!("--require: {what}")))
+    };
+    flags.require.iter().map(read).collect()
+}
+
+/// The map of a scene: as accurate as asked or, with requirements and no accuracy, as accurate as they need to be decided.
+fn decided(
     flags: &GridFlags,
     scene: &Scene,
-    height_m: f64,
-) -> Result<CalculationGrid, Failure> {
-    let mut low = Vector::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
-    let mut high = -low;
-    for corner in (0..scene.triangle_count()).flat_map(|t| scene.triangle(t).corners) {
-        low = Vector::new(low.x.min(corner.x), low.y.min(corner.y), low.z.min(corner.z));
-        high = Vector::new(high.x.max(corner.x), high.y.max(corner.y), high.z.max(corner.z));
+    requirements: &[Requirement],
+    read: &impl Fn(&IlluminationMap) -> Vec<GridResult>,
+) -> Result<(IlluminationMap, Outcome), Failure> {
+    if requirements.is_empty() || flags.accuracy.is_some() {
+        return solved(flags.accuracy, flags, scene);
     }
-    let size = high - low;
-    let (lowest_m, highest_m) = match scene.up() {
-        UpAxis::Z => (low.z, high.z),
-        UpAxis::Y => (low.y, high.y),
-    };
-    if !(lowest_m..=highest_m).contains(&height_m) {
-        return Err(Failure::bad_input(format!(
-            "{}: --height {height_m} lies outside of the scene, which goes from {} to {} m; give one between",
-            flags.source.display(),
-            significant(lowest_m, 3),
-            significant(highest_m, 3)
-        )));
+    for accuracy in ACCURACIES {
+        let (map, outcome) = solved(Some(accuracy), flags, scene)?;
+        let judged = requirement::judge(requirements, &read(&map))?;
+        let is_decided = judged.iter().all(|judged| judged.verdict != Verdict::Undecided);
+        if is_decided || outcome != Outcome::Done {
+            return Ok((map, outcome));
+        }
     }
-    let (corner, u, v) = match scene.up() {
-        UpAxis::Z => (
-            Point::new(low.x, low.y, height_m),
-            Vector::new(size.x, 0.0, 0.0),
-            Vector::new(0.0, size.y, 0.0),
-        ),
-        UpAxis::Y => (
-            Point::new(low.x, height_m, high.z),
-            Vector::new(size.x, 0.0, 0.0),
-            Vector::new(0.0, 0.0, -size.z),
-        ),
-    };
-    Ok(CalculationGrid {
-        name: format!("working plane at {height_m} m"),
-        corner,
-        u,
-        v,
-        spacing_m: None,
-        border_m: CalculationGrid::usual_border_m([u.length(), v.length()]),
-        maintenance_factor: 1.0,
-    })
+    solved(Some(FINEST), flags, scene)
 }
 
 /// The map of a scene, as accurate as asked.
-fn solved(flags: &GridFlags, scene: &Scene) -> Result<(IlluminationMap, Outcome), Failure> {
+fn solved(
+    accuracy: Option<f64>,
+    flags: &GridFlags,
+    scene: &Scene,
+) -> Result<(IlluminationMap, Outcome), Failure> {
     let default = SolveRequest::default();
-    let accuracy = flags.accuracy.or(default.accuracy);
+    let accuracy = accuracy.or(default.accuracy);
     let request = SolveRequest { accuracy, ..default };
     let solved = solving::solve_here((scene, &flags.source), &request)?;
     Ok((solved.solution.map, solved.outcome))
@@ -194,8 +160,10 @@ fn solved(flags: &GridFlags, scene: &Scene) -> Result<(IlluminationMap, Outcome)
 
 /// What `grid --json` prints.
 #[derive(Serialize)]
-struct Reports {
+struct Reports<'a> {
     grids: Vec<Report>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    requirements: &'a [Judged],
 }
 
 #[derive(Serialize)]

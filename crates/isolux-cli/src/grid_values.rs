@@ -1,6 +1,7 @@
 //! What a map says at the points of a calculation grid.
 
 use crate::beside;
+use crate::caller::{look, lookout};
 use crate::unlit::{is_dark, known_dark};
 use isolux::engine::{MapReader, ProbePoint};
 use isolux::geometry::{Normal, Point};
@@ -32,9 +33,12 @@ impl GridValues {
         (scene, reader): (&Scene, &MapReader<'_>),
     ) -> Option<Self> {
         let (normal, points) = (grid.normal()?, grid.points());
+        let is_left = lookout();
         let all = |read: &(dyn Fn(ProbePoint) -> Option<Illuminance> + Sync)| {
-            let read =
-                |&position: &Point| beside::read(scene, ProbePoint { position, normal }, read);
+            let read = |&position: &Point| {
+                let at = ProbePoint { position, normal };
+                if is_left() { None } else { beside::read(scene, at, read) }
+            };
             points.par_iter().map(read).collect::<Vec<_>>()
         };
         let mut values = all(&|at| reader.measure(at));
@@ -42,6 +46,7 @@ impl GridValues {
             values = all(&|at| known_dark((scene, reader), at));
         }
         let are_outside = are_outside((&points, &values), normal, reader);
+        look();
         for (value, is_outside) in values.iter_mut().zip(&are_outside) {
             *value = value.filter(|_| !is_outside);
         }
@@ -65,9 +70,11 @@ fn are_outside(
     if values.iter().flatten().all(is_dark) {
         return vec![false; points.len()];
     }
+    let is_left = lookout();
     let all = points.par_iter().zip(values);
     all.map(|(&position, value)| {
-        value.as_ref().is_some_and(is_dark) && !reader.sees_lit(ProbePoint { position, normal })
+        let is_dark = !is_left() && value.as_ref().is_some_and(is_dark);
+        is_dark && !reader.sees_lit(ProbePoint { position, normal })
     })
     .collect()
 }

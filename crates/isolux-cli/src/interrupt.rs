@@ -1,9 +1,9 @@
-//! Ctrl-C and termination while a map is computed.
+//! Ctrl-C and termination while something is made that can be kept.
 
 use crate::caller;
 use crate::failure::Failure;
 use crate::notes::{Note, note};
-use std::sync::atomic::{AtomicBool, Ordering};
+use crate::stop::Stop;
 use std::sync::{Arc, OnceLock};
 
 /// The one that listens, from the first run on.
@@ -11,25 +11,30 @@ static INSTALLED: OnceLock<Interrupt> = OnceLock::new();
 
 /// Whether the user wants the run to end.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Interrupt {
-    is_requested: Arc<AtomicBool>,
-    ends_at_once: Arc<AtomicBool>,
-}
+pub(crate) struct Interrupt(Arc<Stop>);
 
 impl Interrupt {
     /// From now on the first signal asks for an end with a valid map, the second ends at once. Runs
     /// one after another have one in common: who was stopped in one does not begin another.
     pub(crate) fn install() -> Result<Self, Failure> {
+        let interrupt = Self::listening()?;
+        interrupt.has_more_to_keep();
+        Ok(interrupt)
+    }
+
+    fn listening() -> Result<Self, Failure> {
         if let Some(call) = caller::here() {
-            return Ok(Self { is_requested: call.wants_end(), ends_at_once: Arc::default() });
+            // Nothing is begun for nobody.
+            call.stop().look();
+            return Ok(Self(call.stop()));
         }
         if let Some(installed) = INSTALLED.get() {
             return Ok(installed.clone());
         }
-        let interrupt = Self::default();
-        let Self { is_requested, ends_at_once } = interrupt.clone();
+        let stop = Arc::<Stop>::default();
+        let of_handler = Arc::clone(&stop);
         let handler = move || {
-            if is_requested.swap(true, Ordering::Relaxed) || ends_at_once.load(Ordering::Relaxed) {
+            if of_handler.ask() || !of_handler.keeps() {
                 std::process::exit(130);
             }
             note(
@@ -37,23 +42,25 @@ impl Interrupt {
                 "stopping as soon as the work so far is saved; press Ctrl-C again to stop at once",
             );
         };
+        // The handler may be called at once.
+        stop.set_keeps(true);
         ctrlc::set_handler(handler)
             .map_err(|e| Failure::Refused(format!("cannot listen to Ctrl-C: {e}")))?;
-        Ok(INSTALLED.get_or_init(|| interrupt).clone())
+        Ok(INSTALLED.get_or_init(|| Self(stop)).clone())
     }
 
     /// Whether a signal has arrived.
     pub(crate) fn is_requested(&self) -> bool {
-        self.is_requested.load(Ordering::Relaxed)
+        self.0.is_asked_for()
     }
 
-    /// From now on the first signal asks for an end again: something is being made that can be kept.
+    /// From now on the first signal asks for an end: something is being made that can be kept.
     pub(crate) fn has_more_to_keep(&self) {
-        self.ends_at_once.store(false, Ordering::Relaxed);
+        self.0.set_keeps(true);
     }
 
     /// From now on the next signal ends at once: all that could be kept is.
     pub(crate) fn has_nothing_more_to_keep(&self) {
-        self.ends_at_once.store(true, Ordering::Relaxed);
+        self.0.set_keeps(false);
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! [`command`] is all of it. A program that holds scenes and maps itself has the same done in its own process by [`embedded`].
 
+mod annual;
 mod appearance;
 mod arguments;
 mod arriving;
@@ -16,6 +17,7 @@ mod claim;
 mod clock;
 mod compare;
 mod console;
+mod daylight;
 mod demo;
 mod dimming;
 mod elsewhere;
@@ -30,6 +32,7 @@ mod exported;
 mod exposed;
 mod failure;
 mod flags;
+mod glare;
 mod grid;
 mod grid_values;
 mod groups;
@@ -75,6 +78,7 @@ mod shown;
 mod solve;
 mod solving;
 mod source;
+mod stop;
 mod summary;
 mod traced;
 mod trouble;
@@ -118,6 +122,8 @@ fn carry_out(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Solve(flags) => solve::run(flags, json),
         Command::Probe(flags) => probe::run(flags, json),
         Command::Grid(flags) => grid::run(flags, json),
+        Command::Daylight(flags) => annual::run(flags, json),
+        Command::Glare(flags) => glare::run(flags, json),
         Command::Bake(flags) => bake::run(flags, json),
         Command::Export(flags) => export::run(flags, json),
         Command::View(flags) => serving::view(flags, json),

@@ -29,6 +29,11 @@ pub(crate) struct Maintained {
 }
 
 impl Maintained {
+    /// Whether no factor is in any value.
+    pub(crate) fn is_initial(&self) -> bool {
+        self.values == Values::Initial
+    }
+
     /// The values of a map, or of paths.
     pub(crate) fn of(scene: &Scene) -> Self {
         Self::by(scene.maintenance())

@@ -4,7 +4,7 @@ use crate::caller::{self, Told};
 use crate::failure::Failure;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
-use crate::source::{bad_file, check_place, is_builtin, show_warnings};
+use crate::source::{bad_file, check_place, is_builtin, show_warnings, warn_of_sky};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_formats::map_glb::{self, MapFile, Preview};
@@ -21,6 +21,7 @@ pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
         return Ok(given);
     }
     refuse_builtin(path)?;
+    warn_of_sky(path);
     let loaded = map_glb::read(path).map_err(bad_file)?;
     show_warnings(&loaded.warnings);
     check_place(path, &loaded.value.0)?;
@@ -33,6 +34,7 @@ pub(crate) fn read_with_texels(path: &Path) -> Result<MapFile, Failure> {
         return Ok(MapFile { scene, map, lightmap: None });
     }
     refuse_builtin(path)?;
+    warn_of_sky(path);
     let loaded = map_glb::read_with_texels(path).map_err(bad_file)?;
     show_warnings(&loaded.warnings);
     check_place(path, &loaded.value.scene)?;

@@ -56,15 +56,8 @@ pub(crate) fn run(flags: &MergeFlags, json: bool) -> Result<Outcome, Failure> {
         });
     reporter.finish();
     let solution = solved.map_err(|error| match error {
-        SolveError::OtherRun(what) => Failure::bad_input(format!(
-            "{}: the parts differ in {what}; name their scene with --scene, their pilot with --pilot, and use the same build",
-            path.display()
-        )),
-        SolveError::Missing(Range { start, end }) => Failure::bad_input(format!(
-            "{}: not written: increments {start}..{end} are in no part; make them with `isolux solve --increments {start}..{end}`, or \
-             write what is there as a .part",
-            output.path().display()
-        )),
+        SolveError::OtherRun(what) => of_other_run(what, (&path, &merged.scene), pilot.is_some()),
+        SolveError::Missing(range) => incomplete(&output, range),
         other => unsolvable(other, (&scene, &path)),
     })?;
     map_file::write(&output, &scene, &solution.map)?;
@@ -86,6 +79,29 @@ pub(crate) fn run(flags: &MergeFlags, json: bool) -> Result<Outcome, Failure> {
         print(&report.text())?
     }
     Ok(outcome)
+}
+
+/// Parts that are not of the run that their scene and pilot tell of; `of_parts` is the scene by the name that they have of it.
+fn of_other_run(what: &str, (scene, of_parts): (&Path, &str), has_pilot: bool) -> Failure {
+    let scene = scene.display();
+    Failure::bad_input(match what {
+        "the scene" => format!(
+            "{scene}: is not the scene that the parts{} are of, which was `{of_parts}`, or it has changed since; name theirs with --scene",
+            if has_pilot { " and the pilot" } else { "" }
+        ),
+        _ => format!(
+            "{scene}: the parts differ in {what}; name their scene with --scene, their pilot with --pilot, and use the same build"
+        ),
+    })
+}
+
+/// Parts with a gap.
+fn incomplete(output: &OutputPath, Range { start, end }: Range<u64>) -> Failure {
+    Failure::bad_input(format!(
+        "{}: not written: increments {start}..{end} are in no part; make them with `isolux solve --increments {start}..{end}`, or \
+         write what is there as a .part",
+        output.path().display()
+    ))
 }
 
 /// All parts as one.

@@ -62,8 +62,9 @@ impl Meter {
         }
     }
 
-    /// So much is done; nothing where that cannot be told yet.
+    /// So much is done; nothing where that cannot be told yet. Work that a caller has left ends here.
     pub(crate) fn tell(&mut self, share: f64) {
+        caller::look();
         let elapsed_s = self.started.get_or_insert_with(Instant::now).elapsed().as_secs_f64();
         self.foresight.learn(elapsed_s, share);
         let pause_s = match self.shape {

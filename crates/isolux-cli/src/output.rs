@@ -1,5 +1,6 @@
 //! Files written: checked before anything is computed, and never seen half-written.
 
+use crate::caller;
 use crate::failure::Failure;
 use isolux_formats::atomic;
 use std::path::{Path, PathBuf};
@@ -71,8 +72,9 @@ impl OutputPath {
         )))
     }
 
-    /// Writes the file whole or not at all.
+    /// Writes the file whole or not at all; not for a caller that has left.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+        caller::look();
         // It could be written when it was checked: what keeps it from it now is the machine.
         atomic::write(&self.0, bytes).map_err(|problem| Failure::Refused(problem.to_string()))
     }

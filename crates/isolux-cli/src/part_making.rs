@@ -38,8 +38,12 @@ pub(crate) fn make_parts<T>(
         })
     });
     served.map_err(|error| match error {
+        SolveError::OtherRun("the scene") => Failure::bad_input(format!(
+            "the pilot: is of another scene than {}, or that has changed since; give the scene that it was made of, or make it again",
+            name.display()
+        )),
         SolveError::OtherRun(what) => {
-            wrong(format!("it is not of this scene and this build: they differ in {what}"))
+            wrong(format!("it is not of this build: they differ in {what}"))
         }
         other => unsolvable(other, (scene, name)),
     })

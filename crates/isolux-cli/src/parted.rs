@@ -65,6 +65,11 @@ pub(crate) fn run(
         if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
     };
     let failure = |error| match (error, &flags.pilot) {
+        (SolveError::OtherRun("the scene"), Some(pilot)) => Failure::bad_input(format!(
+            "{}: is the pilot of another scene than {}, or that has changed since; give the pilot of this scene, or leave --pilot out",
+            pilot.display(),
+            flags.scene.display()
+        )),
         (SolveError::OtherRun(what), Some(pilot)) => Failure::bad_input(format!(
             "{}: the pilot differs in {what}; repeat its flags, or leave --pilot out",
             pilot.display()

@@ -1,5 +1,6 @@
 //! `isolux probe`: values of a map, or of a scene by tracing paths, at points.
 
+use crate::caller::{look, lookout};
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ProbeFlags;
@@ -116,12 +117,15 @@ pub(crate) fn readings(
         let is_on_surface = reader.is_on_surface(at);
         is_on_surface.then(|| known_dark((scene, &reader), at)).flatten()
     };
+    let is_left = lookout();
     let read = |at: &ProbePoint| match way {
+        _ if is_left() => None,
         Way::Exact => beside::read(scene, *at, exactly),
         Way::Interpolated => reader.interpolated(*at),
         Way::Probe => reader.probe(*at).or_else(|| dark(*at)),
     };
     let values: Values = points.par_iter().map(read).collect();
+    look();
     if way == Way::Exact {
         return without_unknown(scene, points, values);
     }
@@ -165,8 +169,10 @@ pub(crate) fn traced(
              errors; solve for a map to have it",
         );
     }
-    let trace = |at| Some(tracer.estimate(at, settings));
+    let is_left = lookout();
+    let trace = |at| (!is_left()).then(|| tracer.estimate(at, settings));
     let traced = points.par_iter().map(|at| beside::read(scene, *at, trace)).collect();
+    look();
     Ok(without_unknown(scene, points, traced))
 }
 

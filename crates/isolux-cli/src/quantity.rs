@@ -33,6 +33,25 @@ pub(crate) fn maintenance_factor(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A share of light that is reflected: nothing to all of it.
+pub(crate) fn reflectance(text: &str) -> Result<f64, String> {
+    match number_or_percent(text) {
+        Some(share) if (0.0..=1.0).contains(&share) => Ok(share),
+        Some(_) => Err("must be from 0 to 1; write 0.2 or 20%".into()),
+        None => Err("not a number; write 0.2 or 20%".into()),
+    }
+}
+
+/// Hours of a day, from and to.
+pub(crate) fn hours_of_day(text: &str) -> Result<(u32, u32), String> {
+    let parts = text.split_once("..").map(|(a, b)| (a.trim().parse(), b.trim().parse()));
+    match parts {
+        Some((Ok(from), Ok(to))) if from < to && to <= 24 => Ok((from, to)),
+        Some((Ok(_), Ok(_))) => Err("must rise, up to 24; write 8..18".into()),
+        _ => Err("not two hours; write 8..18".into()),
+    }
+}
+
 /// A bare number as it is, one with a per cent sign as a hundredth.
 fn number_or_percent(text: &str) -> Option<f64> {
     let text = text.trim();
@@ -80,13 +99,31 @@ pub(crate) struct Increments {
     pub end: u64,
 }
 
+impl Display for Increments {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}..{}", self.first, self.end)
+    }
+}
+
 /// A range of increments: `0..8` are the first eight.
 pub(crate) fn increments(text: &str) -> Result<Increments, String> {
     /// A run has no more.
     const MOST: u64 = 1 << 15;
-    let (first, end) = text.split_once("..").ok_or("two numbers are needed: 0..8")?;
-    let (first, end) = (whole(first, 0, MOST - 1)?, whole(end, 1, MOST)?);
-    if first < end { Ok(Increments { first, end }) } else { Err("the range is empty".into()) }
+    let number = |text: &str| text.trim().parse::<u64>().ok();
+    let ends = text.split_once("..").and_then(|(first, end)| number(first).zip(number(end)));
+    match ends {
+        Some((first, end)) if first < end && end <= MOST => Ok(Increments { first, end }),
+        Some((first, end)) if first >= end => {
+            Err("the range is empty; write A..B with A below B: 0..8 are the first eight".into())
+        }
+        Some(_) => {
+            Err(format!("a run has at most {MOST} increments; write A..B with B up to that"))
+        }
+        None => Err(
+            "write two whole numbers A..B for the increments A to B - 1: 0..8 are the first eight"
+                .into(),
+        ),
+    }
 }
 
 /// A number of receivers.
@@ -276,8 +313,8 @@ pub(crate) fn luminance_cd_m2(text: &str) -> Result<f64, String> {
 /// of it enters depends on the scene.
 pub(crate) fn flux(lm: f64, has_parallel: bool) -> String {
     match (lm > 0.0, has_parallel) {
-        (false, true) => "none: parallel light alone".to_owned(),
-        (true, true) => format!("{} lm, and parallel light", significant(lm, 3)),
+        (false, true) => "none: light from infinitely far away alone".to_owned(),
+        (true, true) => format!("{} lm, and light from infinitely far away", significant(lm, 3)),
         // A sum of nothing is -0.
         (_, false) => format!("{} lm", significant(lm + 0.0, 3)),
     }
@@ -326,8 +363,8 @@ mod tests {
 
     #[test]
     fn parallel_light_has_no_flux() {
-        assert_eq!(flux(0.0, true), "none: parallel light alone");
-        assert_eq!(flux(2500.0, true), "2500 lm, and parallel light");
+        assert_eq!(flux(0.0, true), "none: light from infinitely far away alone");
+        assert_eq!(flux(2500.0, true), "2500 lm, and light from infinitely far away");
         assert_eq!(flux(-0.0, false), "0 lm");
     }
 

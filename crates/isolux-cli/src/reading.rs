@@ -1,5 +1,6 @@
 //! How scenes are read.
 
+use isolux_formats::scene_toml::SkyAsked;
 use std::path::PathBuf;
 
 /// How scenes are read.
@@ -9,6 +10,8 @@ pub(crate) struct Reading {
     pub(crate) as_written: bool,
     /// Whether scenes may name files anywhere on this machine.
     pub(crate) allow_outside: bool,
+    /// The sky that stands in place of that of scenes.
+    pub(crate) sky: Option<SkyAsked>,
     /// Files that make up one scene with the one that a command reads.
     pub(crate) further: Vec<PathBuf>,
 }

@@ -1,7 +1,7 @@
 //! Arguments as resolved.
 
 use crate::failure::Failure;
-use crate::flags::{MethodName, Quality, RadiosityFlags, SolveFlags};
+use crate::flags::{LayoutName, MethodName, Quality, RadiosityFlags, SolveFlags};
 use crate::memory;
 use crate::output::OutputPath;
 use isolux::engine::{IrradianceCache, RadiositySettings, RunIdentity, SolveRequest};
@@ -30,6 +30,14 @@ pub(crate) fn solution(flags: &SolveFlags) -> Result<Solution, Failure> {
             part.display()
         )));
     }
+    if let (Some(asked), None) = (flags.increments, output) {
+        return Err(Failure::bad_input(format!(
+            "--increments {asked}: where does this part go? Add -o x.part"
+        )));
+    }
+    if let Some(path) = output.filter(|path| is_part(path) || is_pilot(path)) {
+        refuse_beside_map(flags, path)?;
+    }
     let output = output.map(|path| OutputPath::check_any(path, written(flags))).transpose()?;
     if let Some(output) = &output {
         output.differs_from(&flags.scene)?;
@@ -47,6 +55,30 @@ pub(crate) fn solution(flags: &SolveFlags) -> Result<Solution, Failure> {
 
 fn is_part(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("part"))
+}
+
+fn is_pilot(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("pilot"))
+}
+
+/// Flags about a map are mistakes where none is written.
+fn refuse_beside_map(flags: &SolveFlags, path: &Path) -> Result<(), Failure> {
+    let is_baked =
+        flags.layout.layout == LayoutName::Texels || flags.layout.texels_per_meter.is_some();
+    let given = [
+        ("--layout texels", is_baked, "texels are baked of a map: merge its parts, and use export"),
+        ("--group", flags.group, "every group has a run of its own, and so a pilot of its own"),
+        ("--resume", flags.resume, "only the run of a map is kept to go on from"),
+        ("--live", flags.live, "what is shown is a map"),
+        ("--cache", flags.cache.is_some(), "a run that starts from samples has no parts"),
+    ];
+    match given.iter().find(|(_, is_given, _)| *is_given) {
+        Some((flag, _, why)) => Err(Failure::bad_input(format!(
+            "{flag}: {} is no map, and {why}; leave it out, or end the name in .glb",
+            path.display()
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// What a run writes.

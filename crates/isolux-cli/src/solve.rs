@@ -33,11 +33,12 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         true => source::diffuse(&flags.scene, &scene)?,
         false => scene,
     };
-    if let Some(output) = asked.output.as_ref().filter(|output| parted::is_wanted(output)) {
-        return parted::run(flags, (&scene, output, &asked.request), json);
-    }
     if flags.explain {
         explain::lines(&scene, &asked.request).iter().for_each(|line| note(Note::Info, line));
+    }
+    let is_apart = |output: &&OutputPath| !flags.dry_run && parted::is_wanted(output);
+    if let Some(output) = asked.output.as_ref().filter(is_apart) {
+        return parted::run(flags, (&scene, output, &asked.request), json);
     }
     let groups = flags.group.then(|| groups::of(&scene, &flags.scene)).transpose()?;
     let Some(output) = asked.output.filter(|_| !flags.dry_run) else {

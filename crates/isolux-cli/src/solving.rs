@@ -212,13 +212,15 @@ fn tell_of_dark_surface(map: &IlluminationMap) {
     );
 }
 
-/// The same where the map goes nowhere.
+/// The same where the map goes nowhere: whoever ends what follows loses nothing.
 pub(crate) fn solve_here(
     (scene, source): (&Scene, &Path),
     request: &SolveRequest,
 ) -> Result<Solved, Failure> {
     let follower = Follower { reporter: &mut Reporter::new(None), keeper: None, live: None };
-    follow(scene, request, None, follower, |error| unsolvable(error, (scene, source)))
+    let solved = follow(scene, request, None, follower, |error| unsolvable(error, (scene, source)));
+    Interrupt::install()?.has_nothing_more_to_keep();
+    solved
 }
 
 /// Who is told of a run on the way.

@@ -10,6 +10,7 @@ use crate::trouble::Trouble;
 use isolux::scene::{Scene, SceneParts, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
 use isolux_formats::obj::Materials;
+use isolux_formats::scene_toml::{SkyAsked, put_sky};
 use isolux_formats::{Loaded, Problem, Problems, Reach};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -22,6 +23,7 @@ pub(crate) fn reading_of(flags: &Flags) -> Result<Reading, Failure> {
     let mut reading = Reading {
         as_written: flags.materials == MaterialsName::AsWritten,
         allow_outside: flags.allow_outside,
+        sky: flags.sky.as_deref().map(SkyAsked::parse),
         further: Vec::new(),
     };
     if let Some((first, further)) = flags.command.read_together() {
@@ -77,6 +79,11 @@ pub(crate) fn check_place(source: &Path, scene: &Scene) -> Result<(), Failure> {
 /// Reads a scene.
 pub(crate) fn read_scene_with_warnings(source: &Path) -> Result<Loaded<Scene>, Failure> {
     if let Some(scene) = caller::here().and_then(|call| call.scene(source)) {
+        if reading().sky.is_some() {
+            return Err(Failure::bad_input(
+                "`--sky` beside a scene in memory; read the scene with it",
+            ));
+        }
         return Ok(Loaded { value: scene, warnings: Vec::new() });
     }
     let Loaded { value, warnings } = read_parts(source)?;
@@ -104,8 +111,26 @@ pub(crate) fn is_builtin(source: &Path) -> bool {
     source.to_str().is_some_and(|name| name.starts_with(BUILTIN))
 }
 
-/// Reads what a scene is made of.
+/// Reads what a scene is made of, below the sky that is asked for.
 pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
+    let mut loaded = read_parts_alone(source)?;
+    if let Some(sky) = reading().sky {
+        let told = put_sky(&mut loaded.value, &sky, reach()).map_err(bad_file)?;
+        loaded.warnings.extend(told);
+    }
+    Ok(loaded)
+}
+
+/// Says that a map, whose light is known, takes no sky.
+pub(crate) fn warn_of_sky(map: &Path) {
+    if reading().sky.is_some() {
+        let what =
+            format!("{}: is a map, whose light stays as it is: `--sky` is left out", map.display());
+        note(Note::Warning, what);
+    }
+}
+
+fn read_parts_alone(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
     let Reading { as_written, further, .. } = reading();
     if !further.is_empty() {
         return isolux_formats::load_several(&together(source, &further), reach())
@@ -152,9 +177,9 @@ pub(crate) const NO_MAP: (&str, &str) = (
 /// How to, in this kind of file.
 fn add_light(source: &Path) -> &'static str {
     if source.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
-        "add a [[luminaire]], or a material with `luminance_cd_m2`"
+        "add a [[luminaire]], a [sky], or a material with `luminance_cd_m2`"
     } else {
-        "name the file in a scene.toml, as [[geometry]] with `file`, and add a [[luminaire]] there"
+        "give it a sky by --sky, or name the file in a scene.toml, as [[geometry]] with `file`, and add a [[luminaire]] there"
     }
 }
 

@@ -1,5 +1,6 @@
 //! Views traced over a map.
 
+use crate::caller;
 use crate::failure::Failure;
 use crate::meter::Meter;
 use crate::quantity::significant;
@@ -7,7 +8,7 @@ use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_view::{
     Gathered, LuminanceImage, MapViewer, Noise, Size, SurfacePoint, TraceSettings, View,
-    ViewProgress, Window, trace,
+    ViewProgress, Window, trace_watched,
 };
 
 /// Walls of one side only are looked through from outside.
@@ -124,5 +125,6 @@ pub(crate) fn bare(
 ) -> Result<LuminanceImage, Failure> {
     let size = Size::new(width, height).map_err(Failure::bad_input)?;
     let read = |at: SurfacePoint| map.interpolate(at.triangle, at.back, at.u, at.v);
-    trace(scene, view, size, &SETTINGS, &read).map_err(Failure::bad_input)
+    trace_watched(scene, view, size, &SETTINGS, (&read, &mut |_| caller::look()))
+        .map_err(Failure::bad_input)
 }

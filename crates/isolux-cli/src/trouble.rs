@@ -1,5 +1,6 @@
 //! What keeps the command from its result, with its place and its remedy where they are known.
 
+use crate::caller;
 use crate::shown::plain;
 use isolux_formats::Problem;
 use serde::Serialize;
@@ -33,9 +34,10 @@ impl Trouble {
     }
 
     /// A problem in words, `FILE: PLACE: WHAT; REMEDY`, of which only WHAT must be there. A file is recognized if it is
-    /// an argument of the command.
+    /// an argument of the command, or a word of the call.
     pub(crate) fn in_words(words: impl Display) -> Self {
-        let arguments: Vec<String> = std::env::args().skip(1).collect();
+        let arguments = caller::here()
+            .map_or_else(|| std::env::args().skip(1).collect(), |call| call.names_of_files());
         Self::among(&words.to_string(), |file| arguments.iter().any(|word| word == file))
     }
 

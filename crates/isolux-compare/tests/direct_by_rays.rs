@@ -95,7 +95,7 @@ fn by_way_of(scene: &Scene, luminaire: &Luminaire, way: &[&Mirror], at: ProbePoi
 }
 
 fn parallel(scene: &Scene, luminaire: &Luminaire, at: ProbePoint) -> Rgb {
-    let LuminaireKind::Directional { direction, illuminance_lx } = luminaire.kind else {
+    let LuminaireKind::Directional { direction, illuminance_lx, .. } = luminaire.kind else {
         return Rgb::BLACK;
     };
     let ray = Ray::new(scene.bvh().offset_origin(at.position, at.normal), -direction);
@@ -155,7 +155,9 @@ fn direct_light_is_what_rays_find() {
     // room that has an opening to it: that is tested beside those cases, and by the path tracer.
     let traced = |case: &&Case| {
         let has_glass = (case.parts)().materials.iter().any(|m| m.finish(false).is_none());
-        let has_sky = (case.parts)().shapes.iter().any(|s| s.name == "sky");
+        let is_sky = |l: &Luminaire| matches!(l.kind, LuminaireKind::Sky { .. });
+        let has_sky = (case.parts)().shapes.iter().any(|s| s.name == "sky")
+            || (case.parts)().luminaires.iter().any(is_sky);
         !has_glass && !has_sky && !case.name.starts_with("furnace")
     };
     let all = cases();

@@ -52,6 +52,12 @@ fn of_luminaire(kind: &LuminaireKind) -> Option<String> {
                 format!("an illuminance of {illuminance_lx:e} lx; the sun gives 1.3e5, and at most {MOST_ILLUMINANCE_LX:e} are read")
             })
         }
+        LuminaireKind::Sky { sky, .. } => {
+            let most = sky.most_cd_m2();
+            beyond(most, MOST_LUMINANCE_CD_M2).then(|| {
+                format!("a sky of {most:e} cd/m2; the disc of the sun has 2e9, and at most {MOST_LUMINANCE_CD_M2:e} are read")
+            })
+        }
     }
 }
 
@@ -64,8 +70,11 @@ mod tests {
 
     fn refused(material: Option<f64>, sun_lx: Option<f64>) -> String {
         let finish = |level| Finish { luminance_cd_m2: Rgb::new(0.0, level, 0.0), ..Finish::BLACK };
-        let kind =
-            |illuminance_lx| LuminaireKind::Directional { direction: Direction::Z, illuminance_lx };
+        let kind = |illuminance_lx| LuminaireKind::Directional {
+            direction: Direction::Z,
+            illuminance_lx,
+            half_angle_rad: 0.0,
+        };
         let parts = SceneParts {
             materials: material
                 .map(|m| Material::one_sided("lamp", finish(m)))

@@ -99,13 +99,14 @@ fn instead_of(extension: &str) -> &'static str {
         "wrl" | "x3d" | "vtu" | "csv" | "res" => {
             "name the scene, or the map, that it was made from"
         }
+        "epw" => "name it as the weather of a scene: --sky \"place.epw, time=2026-06-21T12:00:00\"",
         "bin" => "name the .gltf file that refers to it",
         "3ds" | "abc" | "blend" | "dae" | "dxf" | "dwg" | "fbx" | "ifc" | "max" | "skp"
         | "step" | "stp" | "usd" | "usda" | "usdc" | "usdz" => {
             "export it as .glb from the program that made it"
         }
         "exr" | "hdr" => {
-            "pictures of surroundings are not read; `constant` of a Mitsuba scene shines evenly"
+            "name it as the picture of the sky of a scene: --sky \"sky.hdr, luminance_factor=179\""
         }
         "pbrt" => "convert it to Mitsuba 3 (.xml) or export it as .glb",
         "vf" => "name the .rad file of the scene, and views of it in a scene.toml",

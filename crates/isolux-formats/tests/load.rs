@@ -47,7 +47,8 @@ fn anything_else_is_refused_with_what_is_read() {
         ("scene.USDZ", "export it as .glb"),
         ("lamp.gldf", "unpack it"),
         ("lamp.ldt", "[[luminaire]]"),
-        ("room.hdr", "`constant`"),
+        ("room.hdr", "--sky"),
+        ("place.epw", "--sky"),
     ] {
         let message = message_of(name);
         assert!(message.contains(remedy), "{message}");

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
 use isolux::geometry::{Point, Vector};
-use isolux::scene::{Body, LuminaireKind, Scene, SceneParts, UpAxis};
+use isolux::photometry::Sky;
+use isolux::scene::{Body, Luminaire, LuminaireKind, Scene, SceneParts, UpAxis};
 use isolux::units::Rgb;
 use isolux_formats::{Loaded, Problems, Reach, load, rad};
 
@@ -201,18 +202,74 @@ fn boxes_with_broken_edges_are_closed() {
 }
 
 #[test]
-fn suns_are_parallel_light_and_skies_are_refused() {
+fn suns_are_discs() {
     let sun = "void light solar 0 0 3 1e6 1e6 1e6\nsolar source sun 0 0 4 0 1 1 .5\n";
     let parts = read(sun);
-    let LuminaireKind::Directional { direction, illuminance_lx } = parts.luminaires[0].kind else {
-        panic!("a sun is parallel light")
+    let LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad } =
+        parts.luminaires[0].kind
+    else {
+        panic!("a sun is a disc")
     };
+    assert_eq!(half_angle_rad, 0.25_f64.to_radians());
     let cap = 1.0 - libm::cos(0.25_f64.to_radians());
     // 1 - cos loses ten digits.
     assert!((illuminance_lx / (179e6 * std::f64::consts::TAU * cap) - 1.0).abs() < 1e-9);
     near(direction.to_vector().z, -std::f64::consts::FRAC_1_SQRT_2);
-    let sky = "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 180\n";
-    refused(sky, "source `sky`: 180 degrees wide: skies and other large sources are not read");
+}
+
+/// The sky of a scene and the colour of its light.
+fn sky_of(text: &str) -> (Sky, Rgb) {
+    let mut parts = read(text);
+    assert_eq!(parts.luminaires.len(), 1);
+    let Luminaire { kind, colour, name, .. } = parts.luminaires.remove(0);
+    let LuminaireKind::Sky { sky, .. } = kind else { panic!("a wide source is a sky") };
+    assert_eq!(name, "sky");
+    (sky, colour)
+}
+
+fn seen(sky: &Sky, towards: [f64; 3]) -> f64 {
+    sky.luminance_cd_m2(Vector::from(towards).direction().unwrap()).luminance()
+}
+
+#[test]
+fn wide_sources_are_a_sky() {
+    let glow = "void glow g 0 0 4 10 10 10 0\nvoid glow h 0 0 4 2 2 2 0\n";
+    let (even, colour) =
+        sky_of(&format!("{glow}g source sky 0 0 4 0 0 1 180\nh source ground 0 0 4 0 0 -1 180\n"));
+    assert!(matches!(even, Sky::General { .. }));
+    near(seen(&even, [1.0, 0.0, 0.1]), 1790.0);
+    near(seen(&even, [1.0, 0.0, -0.1]), 358.0);
+    near(even.horizontal_lx() / 1790.0, std::f64::consts::PI);
+    near(colour.luminance(), 1.0);
+    let (half, _) = sky_of(&format!("{glow}g source sky 0 0 4 1 0 0 90\n"));
+    // Pixels are in single precision, and half a degree wide.
+    assert!((seen(&half, [1.0, 0.6, 0.0]) / 1790.0 - 1.0).abs() < 1e-6);
+    assert_eq!(seen(&half, [1.0, 1.2, 0.0]), 0.0);
+    let blue = "void glow g 0 0 4 .9 .9 1.15 0\nvoid glow h 0 0 4 1.4 .9 .6 0\n";
+    let (two, white) =
+        sky_of(&format!("{blue}g source sky 0 0 4 0 0 1 180\nh source ground 0 0 4 0 0 -1 180\n"));
+    assert_eq!(white, Rgb::WHITE);
+    assert!((seen(&two, [0.0, 0.0, 1.0]) / (179.0 * 0.91625) - 1.0).abs() < 1e-6);
+}
+
+/// A sky as gensky writes it, with the sources that its manual names; `rtrace` sees 4566 cd/m2 in the zenith and 785.1 below.
+#[test]
+fn skies_of_gensky_are_read() {
+    let text = "void brightfunc skyfunc 2 skybr skybright.cal 0 3 2 2.784e+01 4.330e+00\n\
+                skyfunc glow sky_glow 0 0 4 .9 .9 1.15 0\nsky_glow source sky 0 0 4 0 0 1 180\n\
+                skyfunc glow ground_glow 0 0 4 1.4 .9 .6 0\nground_glow source ground 0 0 4 0 0 -1 180\n";
+    let (sky, _) = sky_of(text);
+    assert!((seen(&sky, [0.0, 0.0, 1.0]) / 4566.0 - 1.0).abs() < 2e-3);
+    assert!((seen(&sky, [0.0, 0.0, -1.0]) / 785.1 - 1.0).abs() < 2e-3);
+    // `rtrace -I -ab 1` of the same sky.
+    assert!((sky.horizontal_lx() / 11_141.0 - 1.0).abs() < 2e-3, "{}", sky.horizontal_lx());
+    let glow = text.split_once('\n').unwrap().1;
+    let (same, _) = sky_of(&format!("!gensky -ang 40 20 -c\n{glow}"));
+    assert!((same.horizontal_lx() / sky.horizontal_lx() - 1.0).abs() < 1e-3);
+    refused(&format!("{text}sky_glow {FACE}"), "varies as a sky does, and is no source");
+    let other = text.replace("2 skybr skybright.cal", "2 f mine.cal");
+    refused(&other, "patterns of lights are not read");
+    refused(&text.replace("3 2 2.784e+01 4.330e+00", "1 2"), "does not have the real arguments");
 }
 
 #[test]
@@ -300,7 +357,7 @@ fn what_is_not_read_is_named_with_its_line() {
         ("void plastic m 0 0 5 1 1\n", "ends after 2 of 5 real"),
         ("void plastic m 0 0 99999999999 1 1\n", "99999999999 real arguments"),
         ("void plastic m 0 0 3 1 1 1\nm sphere s 0 0 4 0 0 0 1\n", "3 real arguments where 5"),
-        ("!gensky 6 21 12\n", "skies are not read"),
+        ("!gensky 6 21 12EST\n", "time zones are given by -m"),
         ("!rm -rf x\n", "`!rm` is not run"),
         ("!xform a.rad; rm x\n", "shell syntax `;`"),
         ("!xform ../../../../../../../../etc/passwd\n", "lies outside"),

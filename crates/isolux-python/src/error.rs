@@ -14,6 +14,12 @@ pub(crate) fn of_failure(py: Python<'_>, failure: &Failure) -> PyErr {
     made(py, name, problems)
 }
 
+/// The exception of an argument that is wrong, in words as `wrong` of `isolux/_errors.py` has them.
+pub(crate) fn of_argument(py: Python<'_>, text: &str) -> PyErr {
+    let make = || py.import("isolux._errors")?.getattr("wrong")?.call1((text,));
+    make().map_or_else(|error| error, PyErr::from_value)
+}
+
 /// The exception of a panic.
 pub(crate) fn of_panic(py: Python<'_>, panic: &(dyn std::any::Any + Send)) -> PyErr {
     let text = panic.downcast_ref::<String>().map(String::as_str);

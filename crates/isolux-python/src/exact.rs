@@ -1,25 +1,25 @@
 //! The exact values of the study's scenes, errors of maps by them, and the colours of charts.
 
-use crate::{arrays, held::Map};
+use crate::{arrays, error, held::Map};
 use isolux_compare::Readings;
 use isolux_view::ColourMap;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
 /// Names of points, each with its weight in the mean error.
 type Letters = Vec<(char, f64)>;
 
-fn no_such_case(case: &str) -> PyErr {
-    PyValueError::new_err(format!("`{case}` has no exact values here; choose cube or sphere"))
+fn no_such_case(py: Python<'_>, case: &str) -> PyErr {
+    error::of_argument(py, &format!("`{case}` has no exact values here; choose cube or sphere"))
 }
 
 /// Rows of `x y z nx ny nz lx`, those of the grid first; then letter and weight of each of the last rows, the points of the paper.
 #[pyfunction]
 pub(crate) fn exact<'py>(py: Python<'py>, case: &str) -> PyResult<(Bound<'py, PyAny>, Letters)> {
-    let places = py.detach(|| isolux_compare::places(case)).ok_or_else(|| no_such_case(case))?;
+    let places =
+        py.detach(|| isolux_compare::places(case)).ok_or_else(|| no_such_case(py, case))?;
     let right_lx: Vec<f64> = places.iter().map(|(_, lx)| *lx).collect();
-    let named = Readings::of_values(case, &right_lx).ok_or_else(|| no_such_case(case))?;
+    let named = Readings::of_values(case, &right_lx).ok_or_else(|| no_such_case(py, case))?;
     let row = |(at, lx): &(isolux::engine::ProbePoint, f64)| {
         let ([x, y, z], n) = (<[f64; 3]>::from(at.position), at.normal.to_vector());
         [x, y, z, n.x, n.y, n.z, *lx]
@@ -38,8 +38,8 @@ pub(crate) fn errors(
 ) -> PyResult<[Option<f64>; 4]> {
     let held = Arc::clone(&map.held);
     let found = py.detach(|| Readings::of_map(&case, &held.0, &held.1));
-    let found = found.ok_or_else(|| no_such_case(&case))?;
-    let found = found.map_err(|wrong| PyValueError::new_err(wrong.to_string()))?;
+    let found = found.ok_or_else(|| no_such_case(py, &case))?;
+    let found = found.map_err(|wrong| error::of_argument(py, &wrong.to_string()))?;
     Ok([found.points_error(), found.grid_error(), found.covered(), found.told_over_true()])
 }
 
@@ -52,7 +52,7 @@ pub(crate) fn colours<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, P
         "turbo" => ColourMap::Turbo,
         _ => {
             let text = format!("`{name}` is no colour map; choose viridis, inferno or turbo");
-            return Err(PyValueError::new_err(text));
+            return Err(error::of_argument(py, &text));
         }
     };
     arrays::rows(py, map.table().to_vec())

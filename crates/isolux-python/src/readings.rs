@@ -1,10 +1,10 @@
 //! Points that are asked for, and what is read there.
 
+use crate::error;
 use isolux::engine::ProbePoint;
 use isolux::geometry::{Point, Vector};
 use isolux::map::Illuminance;
 use numpy::PyReadonlyArray2;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// Rows of `x y z nx ny nz`.
@@ -14,7 +14,7 @@ pub(crate) type Points<'py> = PyReadonlyArray2<'py, f64>;
 pub(crate) fn places(points: &Points<'_>) -> PyResult<Vec<ProbePoint>> {
     let rows = points.as_array();
     let place = |(index, row): (usize, numpy::ndarray::ArrayView1<'_, f64>)| {
-        let wrong = |what: &str| PyValueError::new_err(format!("point {index}: {what}"));
+        let wrong = |what: &str| error::of_argument(points.py(), &format!("point {index}: {what}"));
         let [x, y, z, nx, ny, nz] = std::array::from_fn(|k| row[k]);
         if !row.iter().all(|number| number.is_finite()) {
             return Err(wrong("a coordinate is not finite; give six finite numbers"));

@@ -2,13 +2,12 @@
 
 use crate::held::Map;
 use crate::{arrays, error};
-use isolux_cli::embedded::{Caller, Failure, Told};
+use isolux_cli::embedded::{Caller, Failure, Stop, Told};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
@@ -21,63 +20,81 @@ type Message = (Told, Option<Sender<()>>);
 /// Has work done without the interpreter's lock. What is told goes to `tell(kind, what)`; if that is `False`, the work is to end. With
 /// `waits` the work waits for that answer at every state of progress.
 ///
-/// The first Ctrl-C asks the work to end, and what it has come to is the result. The second is a `KeyboardInterrupt` at once; the work
-/// goes on to its next look, unheard.
+/// Ctrl-C is a `KeyboardInterrupt` at once, and the work ends at its next look, unheard. Where the work has something to keep, the first
+/// one asks it to end instead, and what it has come to is the result.
 pub(crate) fn call<T: Send + 'static>(
     py: Python<'_>,
     (tell, waits): (&Bound<'_, PyAny>, bool),
     work: impl FnOnce(Caller) -> Result<T, Failure> + Send + 'static,
 ) -> PyResult<T> {
-    let wants_end = Arc::new(AtomicBool::new(false));
+    let stop = Arc::new(Stop::default());
     let (sender, messages) = channel();
     let send = move |told: Told| {
         let waits = waits && matches!(told, Told::Progress(_));
         let (answer, answered) = channel();
-        // Nobody listens any more after a second Ctrl-C.
+        // Nobody listens any more after a Ctrl-C that did not wait.
         let _ = sender.send((told, waits.then_some(answer)));
         let _ = answered.recv();
     };
     let caller = Caller {
         given: Vec::new(),
-        wants_end: Arc::clone(&wants_end),
+        stop: Arc::clone(&stop),
         makes_increments: false,
         tell: Box::new(send),
     };
     let worker = std::thread::spawn(|| catch_unwind(AssertUnwindSafe(|| work(caller))));
-    let raised = listen(py, messages, (tell, &wants_end))?;
+    let Heard { raised, interrupted } = listen(py, messages, (tell, &stop))?;
     match (raised, py.detach(|| worker.join()).flatten()) {
         (_, Err(panic)) => Err(error::of_panic(py, panic.as_ref())),
         (Some(raised), _) => Err(raised),
-        (None, Ok(result)) => result.map_err(|failure| error::of_failure(py, &failure)),
+        (None, Ok(Ok(result))) => Ok(result),
+        // It was ended before it came to anything.
+        (None, Ok(Err(failure))) => {
+            Err(interrupted.unwrap_or_else(|| error::of_failure(py, &failure)))
+        }
     }
 }
 
-/// Listens until the work is done. An exception of `tell` ends the work and is handed back; the second Ctrl-C is an error.
+/// What else was heard while the work went on.
+#[derive(Default)]
+struct Heard {
+    /// An exception of `tell`, which has ended the work.
+    raised: Option<PyErr>,
+    /// The first Ctrl-C, if the work was to keep what it had.
+    interrupted: Option<PyErr>,
+}
+
+/// Listens until the work is done. A Ctrl-C that does not wait for that is an error.
 fn listen(
     py: Python<'_>,
     mut messages: Receiver<Message>,
-    (tell, wants_end): (&Bound<'_, PyAny>, &AtomicBool),
-) -> PyResult<Option<PyErr>> {
-    let (mut raised, mut is_interrupted) = (None, false);
+    (tell, stop): (&Bound<'_, PyAny>, &Stop),
+) -> PyResult<Heard> {
+    let mut heard = Heard::default();
     loop {
         // A receiver may go to another thread, not be seen by two.
         let own = &mut messages;
         let goes_on = match py.detach(move || own.recv_timeout(LOOK)) {
-            Err(RecvTimeoutError::Disconnected) => return Ok(raised),
+            Err(RecvTimeoutError::Disconnected) => return Ok(heard),
             Err(RecvTimeoutError::Timeout) => py.check_signals().map(|()| true),
             Ok((told, _answered)) => {
                 let goes_on = hand_over(tell, told);
                 // Before it is answered.
-                wants_end.fetch_or(!matches!(goes_on, Ok(true)), Ordering::Relaxed);
+                if !matches!(goes_on, Ok(true)) {
+                    stop.ask();
+                }
                 goes_on
             }
         };
         let Err(exception) = goes_on else { continue };
-        wants_end.store(true, Ordering::Relaxed);
+        stop.ask();
         if !exception.is_instance_of::<PyKeyboardInterrupt>(py) {
-            raised.get_or_insert(exception);
-        } else if std::mem::replace(&mut is_interrupted, true) {
+            heard.raised.get_or_insert(exception);
+        } else if heard.interrupted.is_some() || !stop.keeps() {
+            stop.leave();
             return Err(exception);
+        } else {
+            heard.interrupted = Some(exception);
         }
     }
 }
@@ -89,6 +106,7 @@ fn hand_over(tell: &Bound<'_, PyAny>, told: Told) -> PyResult<bool> {
         Told::Note(kind, text) => tell.call1((kind, text)),
         Told::Progress(json) => tell.call1(("progress", json)),
         Told::Json(json) => tell.call1(("json", json)),
+        Told::Text(text) => tell.call1(("text", text)),
         Told::Map(path, held) => {
             let map = Bound::new(py, Map { held: Arc::from(held) })?;
             tell.call1(("map", (path, map)))

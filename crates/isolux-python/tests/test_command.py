@@ -74,3 +74,19 @@ def test_ctrl_c_ends_the_command_with_a_map(tmp_path: Path) -> None:
         _, told = run.communicate()
     assert run.returncode == 130, first + told
     assert not isolux.open_map(tmp_path / "map.glb").complete
+
+
+def test_help_and_version_are_text() -> None:
+    for words in (("--version",), ("solve", "--help"), ("help", "grid"), ("--help",)):
+        assert isolux.command(*words) == command(*words).stdout
+    assert isolux.command("--version").startswith("isolux ")
+    with pytest.raises(isolux.InputError, match="a subcommand is missing"):
+        isolux.command()
+
+
+def test_what_serves_until_it_is_stopped_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(isolux.InputError, match=r"use m\.view\(\)"):
+        isolux.command("view", tmp_path / "map.glb")
+    with pytest.raises(isolux.InputError, match="--live.*callback"):
+        isolux.command("solve", "builtin:cube", "--live", "-o", tmp_path / "map.glb")
+    assert not list(tmp_path.iterdir())

@@ -97,12 +97,16 @@ def test_failures_elsewhere_are_raised(cube: isolux.Scene) -> None:
 
 
 def test_pilots_and_parts_of_others_are_refused(cube: isolux.Scene, pilot: bytes) -> None:
-    with pytest.raises(isolux.InputError, match="differ in the scene"):
+    with pytest.raises(isolux.InputError, match="the pilot: is of another scene than room"):
         isolux.parts.PartMaker(room(), pilot)
     with pytest.raises(isolux.InputError, match="checksum"):
         isolux.parts.PartMaker(cube, pilot[:-1])
     with pytest.raises(isolux.InputError, match="not a checkpoint"):
         isolux.parts.merge([b"nothing"])
+    part = isolux.parts.PartMaker(cube, pilot).make(0, 1)
+    for known in (None, pilot):
+        with pytest.raises(isolux.InputError, match="room: is not the scene that the parts"):
+            isolux.parts.to_map([part], room(), pilot=known)
     damaged = bytearray(pickle.dumps(cube))
     at = len(damaged) // 2
     damaged[at] ^= 1
@@ -121,3 +125,32 @@ def test_other_threads_go_on_while_increments_are_made(cube: isolux.Scene, pilot
         thread.join(0.001)
     assert counted > 1
     assert made == [isolux.parts.PartMaker(cube, pilot).make(0, 3)]
+
+
+def test_increments_are_counted_from_nought(cube: isolux.Scene, pilot: bytes) -> None:
+    maker = isolux.parts.PartMaker(cube, pilot)
+    for first, end in ((3, 1), (2, 2), (-1, 2), (0, isolux.parts.MOST_INCREMENTS + 1)):
+        with pytest.raises(isolux.InputError, match="give 0 <= first < end <= 32768"):
+            maker.make(first, end)
+
+
+def test_options_that_a_pilot_has_no_use_for(cube: isolux.Scene) -> None:
+    for options, flag in (
+        ({"layout": "texels"}, "--layout texels"),
+        ({"group": True}, "--group"),
+        ({"resume": True}, "--resume"),
+    ):
+        with pytest.raises(isolux.InputError, match=f"{flag}: .* is no map"):
+            isolux.parts.make_pilot(cube, **options)
+
+
+def test_what_files_of_runs_hold(cube: isolux.Scene, pilot: bytes, tmp_path: Path) -> None:
+    (tmp_path / "a.pilot").write_bytes(pilot)
+    (tmp_path / "a.part").write_bytes(isolux.parts.PartMaker(cube, pilot).make(1, 3))
+    of_pilot, of_part = isolux.info(tmp_path / "a.pilot"), isolux.info(tmp_path / "a.part")
+    assert (of_pilot["kind"], of_part["kind"]) == ("pilot", "part of a run")
+    assert of_part["scene"] == "builtin:cube" and of_part["increments"] == [[1, 3]]
+    for told in (of_pilot, of_part):
+        assert told["scene_hash"] == cube.hash and told["mesh"] == 1
+        assert told["version"] == isolux.__version__ and told["accuracy_target"] == 0.05
+    assert of_pilot["receivers"] == of_part["receivers"] > 100

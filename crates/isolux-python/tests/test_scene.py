@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +87,9 @@ def test_luminaires_of_files(tmp_path: Path) -> None:
     [
         (dict(vertices=[(0, 0)], triangles=[(0, 0, 0)]), "give (n, 3)"),
         (dict(vertices=np.zeros((3, 3)), triangles=[(0, 1, 3)]), "there are 0 to 2"),
+        (dict(vertices=[(0, 0, np.nan)], triangles=[(0, 0, 0)]), "vertices[0] is not finite"),
+        (dict(vertices=[(0, 0, 0), (0, 0)], triangles=[(0, 0, 0)]), "vertices is [(0, 0, 0), "),
+        (dict(vertices=np.eye(3), triangles=[(0, 1, 2), (0, 1)]), "triangles is [(0, 1, 2), "),
         (dict(vertices=np.zeros((3, 3)), triangles=[(0.0, 1.0, 2.0)]), "integers"),
         (dict(vertices=np.eye(3), triangles=[(0, 1, 2)], materials={}), "give one"),
         (dict(vertices=np.eye(3), triangles=[(0, 1, 2)], materials={"a": 0, "b": 1}), "missing"),
@@ -106,6 +110,68 @@ def test_what_cannot_be_a_scene(arguments: dict[str, object], words: str) -> Non
     with pytest.raises(ValueError) as found:
         isolux.Scene.from_arrays(**arguments)  # type: ignore[arg-type]
     assert words in str(found.value)
+
+
+def wrong(**arguments: Any) -> list[isolux.Problem]:
+    """What is wrong with arguments of a room."""
+    with pytest.raises(isolux.InputError) as found:
+        room(**arguments)
+    return found.value.problems
+
+
+LAMP: dict[str, Any] = {"isotropic": {"flux_lm": 100}, "position": (2, 2, 1)}
+
+
+@pytest.mark.parametrize(
+    "arguments, place",
+    [
+        ({"materials": {"floor": 1.5, "paint": 0.5}}, "materials['floor']"),
+        ({"materials": {"floor": {"diffuse": 7}, "paint": 0.5}}, "materials['floor'].diffuse"),
+        ({"materials": {"floor": {"shiny": 1}, "paint": 0.5}}, "materials['floor'].shiny"),
+        ({"luminaires": [LAMP, {**LAMP, "flux": 3}]}, "luminaires[1].flux"),
+        ({"luminaires": {**LAMP, "dimming": "much"}}, "luminaires.dimming"),
+        ({"luminaires": [{**LAMP, "a b": 3}]}, "luminaires[0].a b"),
+        ({"luminaires": [{"position": (0, 0, 1)}]}, "luminaires[0]"),
+        ({"luminaires": [isolux.Luminaire("no.ies", position=(1, 1, 1))]}, "luminaires[0].file"),
+        ({"grids": [{"name": "a", "corner": (0, 0)}]}, "grids[0].corner"),
+        ({"cameras": [{"name": "a"}]}, "cameras[0]"),
+        ({"up": "x"}, "up"),
+    ],
+)
+def test_problems_are_told_of_arguments(arguments: dict[str, Any], place: str) -> None:
+    problems = wrong(**arguments)
+    assert problems[0].place == place and problems[0].file is None
+    for problem in problems:
+        assert problem.message.startswith("from_arrays: ")
+        assert f"{tempfile.gettempdir()}/isolux-" not in problem.message
+        assert "scene.toml" not in problem.message
+        assert problem.remedy and problem.message.endswith(problem.remedy)
+    assert f"from_arrays: {place}: " in problems[0].message
+
+
+def test_values_that_no_file_holds_are_told_of_arguments() -> None:
+    for arguments, words in (
+        ({"materials": {"floor": None, "paint": 0.5}}, "materials['floor'] is None; give a number"),
+        ({"luminaires": [{**LAMP, "aim": {1, 2}}]}, "luminaires[0].aim is {1, 2}; give a number"),
+        ({"luminaires": 3}, "luminaires is 3; give isolux.Luminaire"),
+        ({"grids": {"name": "a"}}, "grids is {'name': 'a'}; give a list of dicts"),
+        ({"cameras": ["door"]}, "cameras[0] is 'door'; give a dict"),
+        ({"triangle_materials": [["floor"], []]}, "triangle_materials"),
+    ):
+        [problem] = wrong(**arguments)
+        assert words in problem.message
+
+
+def test_warnings_are_told_of_arguments() -> None:
+    with pytest.warns(isolux.IsoluxWarning) as found:
+        scene = isolux.Scene.from_arrays(
+            np.eye(3), [(0, 1, 2)], materials={"a": 0.5, "b": 0.5}, triangle_materials=["a"]
+        )
+    [unused] = scene.warnings
+    assert unused.startswith("from_arrays: materials['b']: nothing is made of")
+    assert scene.warnings == [str(warning.message) for warning in found]
+    # It points at whoever called.
+    assert all(warning.filename == __file__ for warning in found)
 
 
 def test_failures_have_the_words_of_the_command(tmp_path: Path) -> None:

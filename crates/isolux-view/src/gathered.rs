@@ -6,7 +6,7 @@ use crate::direct::DirectField;
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
 use crate::middles::{Middles, on_side, surface};
-use crate::trace::{SurfacePoint, TraceSettings, trace, trace_watched};
+use crate::trace::{SurfacePoint, TraceSettings, trace_watched};
 use isolux::engine::net::{Filled, Fineness, Net, Wanted};
 use isolux::engine::{Allowance, IndirectReading, MapReader, PictureLight, ShadowRays, Told};
 use isolux::map::{Illuminance, IlluminationMap};
@@ -89,7 +89,7 @@ impl<'a> MapViewer<'a> {
     ) -> Result<(LuminanceImage, Gathered), ViewError> {
         let (scene, map, reader) = (self.scene, self.map, &self.reader);
         let view = view.into();
-        let middles = Middles::of(scene, size, asked(scene, view, size, settings)?);
+        let middles = Middles::of(scene, size, asked(scene, view, size, (settings, watch))?);
         let round = settings.round;
         let direct = DirectField::new(&middles, (reader, map), round, |share| {
             watch(ViewProgress::Lighting(share));
@@ -126,7 +126,7 @@ fn asked(
     scene: &Scene,
     view: View,
     size: Size,
-    settings: &TraceSettings,
+    (settings, watch): (&TraceSettings, &mut dyn FnMut(ViewProgress)),
 ) -> Result<Vec<SurfacePoint>, ViewError> {
     let middles =
         TraceSettings { samples_per_side: 1, gloss_samples: 1, highlights: false, ..*settings };
@@ -137,7 +137,9 @@ fn asked(
         }
         None
     };
-    trace(scene, view, size, &middles, &ask)?;
+    // What is to be lit is not known yet.
+    let watch = &mut |_| watch(ViewProgress::Lighting(0.0));
+    trace_watched(scene, view, size, &middles, (&ask, watch))?;
     let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
     let key = |at: &SurfacePoint| (at.pixel, at.path);
     all.sort_unstable_by(|a, b| {

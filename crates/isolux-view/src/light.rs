@@ -3,6 +3,7 @@
 use crate::colorimetry::XYZ_FROM_REC709;
 use isolux::scene::{Luminaire, LuminaireKind, Scene};
 use isolux::units::Rgb;
+use std::f64::consts::PI;
 
 /// The adapting luminance of eyes in a room, cd/m2: a fifth of what white paper has in 300 lx.
 const ADAPTING_CD_M2: f64 = 20.0;
@@ -12,7 +13,7 @@ const NEAR_WHITES: [f64; 2] = [0.02, 0.05];
 /// Reciprocal temperatures of white light, in 1e-6 / K: from 12 500 K to 1600 K.
 const MIREDS: std::ops::RangeInclusive<u32> = 80..=625;
 
-/// The colour of the light of a scene, of luminance 1: the mean over its luminaires by their flux. Parallel light counts by what falls
+/// The colour of the light of a scene, of luminance 1: the mean over its luminaires by their flux. Light from far away counts by what falls
 /// through the box around the scene, in the mean over all directions. `None` for a scene without light.
 pub fn colour_of_light(scene: &Scene) -> Option<Rgb> {
     let sum: Rgb = light_of_groups(scene).into_iter().sum();
@@ -29,6 +30,7 @@ pub fn light_of_groups(scene: &Scene) -> Vec<Rgb> {
     let flux_lm = |of: &Luminaire| match &of.kind {
         LuminaireKind::Point { intensity, .. } => intensity.luminous_flux_lm(),
         LuminaireKind::Directional { illuminance_lx, .. } => illuminance_lx * mean_shadow_m2(scene),
+        LuminaireKind::Sky { sky, .. } => 4.0 * PI * sky.mean_cd_m2() * mean_shadow_m2(scene),
     };
     for of in scene.luminaires() {
         light[of.group as usize] += of.colour * flux_lm(of);

@@ -2,7 +2,7 @@
 
 use super::finding::Finding;
 use crate::quantity::significant;
-use isolux::scene::{Finish, LuminaireKind, Material, Scene, Texture};
+use isolux::scene::{Finish, Material, Scene, Texture};
 use isolux::units::Rgb;
 
 /// Above this the light of a closed room would take a hundred reflections to die.
@@ -44,11 +44,7 @@ impl Energy {
             // A sum of nothing is -0.
             flux_lm: scene.luminous_flux_lm() + 0.0,
             mean_reflectance: if inside_m2 > 0.0 { reflected_m2 / inside_m2 } else { 0.0 },
-            parallel: scene
-                .luminaires()
-                .iter()
-                .filter(|l| matches!(l.kind, LuminaireKind::Directional { .. }))
-                .count(),
+            parallel: scene.luminaires().iter().filter(|l| l.kind.is_infinitely_far()).count(),
             materials_above_bright: bright_materials(scene, &reflectances),
         }
     }
@@ -120,6 +116,7 @@ fn bright_materials(scene: &Scene, reflectances: &Reflectances) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use isolux::scene::LuminaireKind;
     use isolux::scene::SceneParts;
 
     fn energy(change: impl FnOnce(&mut SceneParts)) -> Energy {

@@ -69,6 +69,7 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
         LuminaireKind::Directional { direction, .. } => {
             return is_shut_out(scene, *direction).then_some(Trouble::ShutOut);
         }
+        LuminaireKind::Sky { .. } => return None,
     };
     if intensity.luminous_flux_lm() <= 0.0 {
         return Some(Trouble::NoFlux);
@@ -239,7 +240,8 @@ mod tests {
         let shapes =
             |sky_half: f64| vec![cube(1.0, false), Shape { material: 1, ..cube(sky_half, true) }];
         let direction = Vector::new(0.3, 0.2, -0.9).direction().unwrap();
-        let kind = LuminaireKind::Directional { direction, illuminance_lx: 7e4 };
+        let kind =
+            LuminaireKind::Directional { direction, illuminance_lx: 7e4, half_angle_rad: 0.0 };
         let sun = Luminaire { name: "sun".into(), group: 0, colour: Rgb::WHITE, kind };
         let trouble_of = |sky_half: f64| {
             let (materials, luminaires) = (materials.clone(), vec![sun.clone()]);

@@ -10,6 +10,7 @@ mod light;
 mod outside;
 
 use crate::console::{facts, print, print_json};
+use crate::daylight::Daylight;
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
@@ -46,10 +47,12 @@ struct Audit {
     up: UpAxis,
     area_m2: f64,
     luminaires: usize,
-    /// Of them, sources of parallel light, which have an illuminance but no flux.
+    /// Of them, those infinitely far away, which have an illuminance but no flux.
     parallel: usize,
     emitting_surfaces: usize,
     luminous_flux_lm: f64,
+    #[serde(flatten)]
+    daylight: Daylight,
     mean_reflectance: f64,
     #[serde(flatten)]
     light: light::Light,
@@ -79,6 +82,8 @@ impl Audit {
             findings.extend(of_scene(source::NO_MAP));
         }
         findings.extend(lamps::findings(scene));
+        let daylight = Daylight::of(scene);
+        findings.extend(daylight.below_horizon().map(below_horizon));
         Self {
             scene: scene.name().to_owned(),
             triangles: scene.triangle_count(),
@@ -89,6 +94,7 @@ impl Audit {
             parallel: energy.parallel,
             emitting_surfaces: scene.area_luminaires().len(),
             luminous_flux_lm: energy.flux_lm,
+            daylight,
             mean_reflectance: energy.mean_reflectance,
             light,
             open_edges: borders.open,
@@ -105,7 +111,7 @@ impl Audit {
         };
         let unknown = || ["none", "none", "cannot be solved"].map(str::to_owned);
         let [receivers, memory, time] = self.estimate.map_or_else(unknown, |e| e.shown());
-        let mut text = facts(&[
+        let mut rows = vec![
             ("scene", name(&self.scene)),
             ("size", format!("{x} x {y} x {z} m")),
             ("up", up.to_owned()),
@@ -120,7 +126,9 @@ impl Audit {
             ("receivers at 1 %", receivers),
             ("memory at 1 %", memory),
             ("time to 1 %", format!("{time}; to bake lightmaps comes on top")),
-        ]);
+        ];
+        rows.extend(self.daylight.rows());
+        let mut text = facts(&rows);
         text += "\n";
         text += &self.findings.iter().map(Finding::line).collect::<String>();
         if self.findings.is_empty() {
@@ -128,6 +136,15 @@ impl Audit {
         }
         text
     }
+}
+
+/// Light that no sun sends.
+fn below_horizon((luminaire, below_deg): (&str, f64)) -> Finding {
+    Finding::note(
+        format!("luminaire `{luminaire}`"),
+        format!("shines upwards, from {} degrees below the horizon", significant(below_deg, 2)),
+        "turn it if it is meant as the sun",
+    )
 }
 
 fn of_scene((what, remedy): (&str, &str)) -> Vec<Finding> {

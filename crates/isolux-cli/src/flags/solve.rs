@@ -28,7 +28,7 @@ pub(crate) struct SolveFlags {
     #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
     pub further: Vec<PathBuf>,
     /// Where to write the map (.glb), the result of the pilot alone (.pilot), or with --increments a part of the run (.part)
-    #[arg(short, long, value_name = "MAP.glb", required_unless_present = "dry_run")]
+    #[arg(short, long, value_name = "MAP.glb", required_unless_present_any = ["dry_run", "increments"])]
     pub output: Option<PathBuf>,
     /// Make these increments alone, from number A to B - 1, for `merge`: 0..8
     #[arg(long, value_name = "A..B", value_parser = quantity::increments, allow_hyphen_values = true,

@@ -2,7 +2,9 @@
 
 mod cache;
 mod map;
+mod run;
 mod scene;
+mod weather;
 
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
@@ -10,8 +12,8 @@ use crate::flags::InfoFlags;
 use crate::lamp::Contents;
 use crate::source::{bad_file, show_warnings};
 use crate::{map_file, source};
-use isolux_formats::cache_file;
 use isolux_formats::photometric_file::PhotometricFile;
+use isolux_formats::{cache_file, checkpoint};
 use std::path::Path;
 
 /// Runs the subcommand.
@@ -20,7 +22,9 @@ pub(crate) fn run(flags: &InfoFlags, json: bool) -> Result<Outcome, Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("ies" | "ldt") => show_lamp(path, json)?,
+        Some("epw") => weather::show(path, json)?,
         _ if cache_file::is_cache(path) => cache::show(path, json)?,
+        _ if checkpoint::is_checkpoint(path) => run::show(path, json)?,
         _ if map_file::is_map(path) => {
             let (scene, map) = map_file::read(path)?;
             map::show(&scene, &map, json)?;

@@ -1,6 +1,7 @@
 //! What a scene holds.
 
 use crate::console::{facts, print, print_json, table};
+use crate::daylight::Daylight;
 use crate::failure::Failure;
 use crate::maintained::Maintained;
 use crate::quantity::{flux, significant};
@@ -15,7 +16,7 @@ use serde::Serialize;
 const MAX_SHOWN: usize = 30;
 
 /// Light that has an illuminance but no flux.
-const DIRECTIONAL: &str = "directional";
+const FAR: [&str; 2] = ["directional", "sky"];
 
 /// Prints a scene.
 pub(super) fn show(scene: &Scene, json: bool) -> Result<(), Failure> {
@@ -43,6 +44,8 @@ pub(super) struct Contents {
     groups: Vec<String>,
     luminaires: Vec<Luminaires>,
     luminous_flux_lm: f64,
+    #[serde(flatten)]
+    daylight: Daylight,
     #[serde(flatten)]
     maintained: Maintained,
     materials: Vec<Surface>,
@@ -84,13 +87,14 @@ impl Contents {
             luminaires: luminaires(scene),
             // A sum of nothing is -0.
             luminous_flux_lm: scene.luminous_flux_lm() + 0.0,
+            daylight: Daylight::of(scene),
             maintained: Maintained::of(scene),
             materials: scene.materials().iter().map(surface).collect(),
         }
     }
 
     fn has_parallel(&self) -> bool {
-        self.luminaires.iter().any(|l| l.kind == DIRECTIONAL)
+        self.luminaires.iter().any(|l| FAR.contains(&l.kind))
     }
 
     fn text(&self) -> String {
@@ -102,7 +106,7 @@ impl Contents {
             UpAxis::Y => "y",
             UpAxis::Z => "z",
         };
-        let mut text = facts(&[
+        let mut rows = vec![
             ("scene", name(&self.name)),
             ("from", corner(self.low_m)),
             ("to", corner(self.high_m)),
@@ -116,10 +120,12 @@ impl Contents {
             ("light groups", list(&self.groups)),
             ("luminous flux", flux(self.luminous_flux_lm, self.has_parallel())),
             ("light", self.maintained.text()),
-        ]);
+        ];
+        rows.extend(self.daylight.rows());
+        let mut text = facts(&rows);
         let light = |l: &Luminaires| {
             let lm = match l.kind {
-                DIRECTIONAL => "-".to_owned(),
+                kind if FAR.contains(&kind) => "-".to_owned(),
                 _ => significant(l.luminous_flux_lm, 3),
             };
             vec![l.kind.to_owned(), l.count.to_string(), lm]
@@ -164,7 +170,8 @@ fn luminaires(scene: &Scene) -> Vec<Luminaires> {
             LuminaireKind::Point { intensity, .. } => {
                 add(distribution(intensity), intensity.luminous_flux_lm());
             }
-            LuminaireKind::Directional { .. } => add(DIRECTIONAL, 0.0),
+            LuminaireKind::Directional { .. } => add(FAR[0], 0.0),
+            LuminaireKind::Sky { .. } => add(FAR[1], 0.0),
         }
     }
     scene.area_luminaires().iter().for_each(|area| add("surface", area.luminous_flux_lm()));

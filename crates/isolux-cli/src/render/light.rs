@@ -5,7 +5,6 @@ use crate::appearance::ExposureChoice;
 use crate::cached_view::{self, CacheUse};
 use crate::failure::{Failure, Outcome};
 use crate::flags::RenderFlags;
-use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use crate::quantity::show_share;
 use crate::traced::{Watched, bare};
@@ -195,6 +194,5 @@ fn solved(
     if solved.outcome == Outcome::Interrupted {
         return Ok(None);
     }
-    Interrupt::install()?.has_nothing_more_to_keep();
     Ok(Some(solved.solution.map))
 }

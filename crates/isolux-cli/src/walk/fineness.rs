@@ -1,5 +1,6 @@
 //! How fine the map is made that is shown.
 
+use crate::caller;
 use isolux::engine::{Finer, FinerSettings};
 use isolux::geometry::Point;
 use isolux::map::IlluminationMap;
@@ -21,6 +22,9 @@ pub(crate) fn fineness(scene: &Scene) -> FinerSettings {
 pub(crate) fn finer(scene: &Scene, map: &IlluminationMap, limit: Duration) -> IlluminationMap {
     let started = Instant::now();
     let mut finer = Finer::new(scene, map);
-    finer.refine(&fineness(scene), &mut || started.elapsed() < limit);
+    finer.refine(&fineness(scene), &mut || {
+        caller::look();
+        started.elapsed() < limit
+    });
     finer.map()
 }

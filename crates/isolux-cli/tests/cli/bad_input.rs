@@ -104,7 +104,7 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["solve", "text.toml", "-o", "m.glb"], "text.toml"),
     (&["solve", "empty.obj", "-o", "m.glb"], "empty.obj: is empty"),
     (&["check", "empty.stl"], "empty.stl: is empty"),
-    (&["solve", "sky.rad", "-o", "m.glb"], "sky.rad: line 2: source `sky`"),
+    (&["solve", "sky.rad", "-o", "m.glb"], "sky.rad: scene: there is no geometry"),
     (&["check", "shell.rad"], "`!rm` is not run"),
     (&["info", "text.ldt"], "text.ldt"),
     (&["info", "missing.ies"], "missing.ies: does not exist"),

@@ -6,10 +6,12 @@ mod bad_input;
 #[cfg(unix)]
 mod caches;
 mod dark;
+mod daylight;
 mod days;
 mod degenerate;
 mod engines;
 mod errors;
+mod glare;
 mod grids;
 mod groups;
 #[cfg(unix)]
@@ -25,6 +27,7 @@ mod readme;
 mod results;
 mod rooms;
 mod several;
+mod skies;
 mod tables;
 mod views;
 #[cfg(unix)]

@@ -54,10 +54,26 @@ fn parts_that_cannot_be_merged_are_named() {
         assert!(ran.code == 2 && ran.err.contains(said), "{words:?}: {ran:?}");
         assert!(!home.path("m.glb").exists());
     }
+    let elsewhere = home.run(&["merge", "a.part", "--scene", "builtin:sphere", "-o", "m.glb"]);
+    let said = "builtin:sphere: is not the scene that the parts are of, which was `builtin:cube`";
+    assert!(elsewhere.code == 2 && elsewhere.err.contains(said), "{elsewhere:?}");
     for (words, said) in [
         (&["-o", "x.part"][..], "which part of the run?"),
         (&["-o", "x.glb", "--increments", "0..2"], "end its name in .part"),
-        (&["-o", "x.part", "--increments", "2..2"], "the range is empty"),
+        (&["--increments", "0..2"], "where does this part go? Add -o x.part"),
+        (&["-o", "x.part", "--increments", "2..2"], "the range is empty; write A..B"),
+        (&["-o", "x.part", "--increments", "5"], "write two whole numbers A..B"),
+        (&["-o", "x.part", "--increments", "0..40000"], "at most 32768 increments"),
+        (
+            &["-o", "x.part", "--increments", "0..2", "--layout", "texels"],
+            "--layout texels: x.part",
+        ),
+        (&["-o", "x.pilot", "--layout", "texels"], "--layout texels: x.pilot is no map"),
+        (&["-o", "x.pilot", "--texels-per-meter", "9"], "--layout texels: x.pilot is no map"),
+        (&["-o", "x.pilot", "--group"], "--group: x.pilot is no map"),
+        (&["-o", "x.pilot", "--resume"], "--resume: x.pilot is no map"),
+        (&["-o", "x.pilot", "--live"], "--live: x.pilot is no map"),
+        (&["-o", "x.pilot", "--method", "cache", "--cache", "c"], "--cache: x.pilot is no map"),
         (
             &["-o", "x.part", "--increments", "0..2", "--method", "radiosity"],
             "hybrid, cache or forward",
@@ -67,4 +83,33 @@ fn parts_that_cannot_be_merged_are_named() {
         let ran = home.run(&[&CUBE[..], words].concat());
         assert!(ran.code == 2 && ran.err.contains(said), "{words:?}: {ran:?}");
     }
+}
+
+#[test]
+fn info_says_what_files_of_a_run_hold() {
+    let home = Home::new();
+    assert_eq!(home.run(&[&CUBE[..], &["-o", "cube.pilot"]].concat()).code, 0);
+    made(&home, "0..2", "a.part", &["--pilot", "cube.pilot"]);
+    made(&home, "3..4", "b.part", &["--pilot", "cube.pilot"]);
+    assert_eq!(home.run(&["merge", "a.part", "b.part", "-o", "all.part"]).code, 0);
+    let part = home.run(&["info", "all.part"]);
+    for said in ["part of a run", "builtin:cube", "0..2, 3..4", "5.0 %", "hybrid"] {
+        assert!(part.out.contains(said), "{said}: {part:?}");
+    }
+    let hash = home.run(&["info", "all.part", "--json"]).json()["scene_hash"].clone();
+    let pilot = home.run(&["info", "cube.pilot", "--json"]).json();
+    assert_eq!((&pilot["kind"], &pilot["scene_hash"]), (&"pilot".into(), &hash));
+    assert!(pilot["increments"].is_null() && pilot["receivers"].as_u64() > Some(100), "{pilot}");
+    let whole = fs::read(home.path("all.part")).unwrap();
+    home.file("cut.part", &whole[..whole.len() / 2]);
+    let cut = home.run(&["info", "cut.part"]);
+    assert!(cut.code == 2 && cut.err.contains("its contents do not match"), "{cut:?}");
+}
+
+#[test]
+fn a_dry_run_makes_no_pilot() {
+    let home = Home::new();
+    let ran = home.run(&[&CUBE[..], &["-o", "cube.pilot", "--dry-run", "--json"]].concat());
+    assert!(ran.code == 0 && ran.json()["receivers"].as_u64().is_some(), "{ran:?}");
+    assert!(!home.path("cube.pilot").exists());
 }

@@ -312,8 +312,8 @@ fn a_radiance_scene_is_solved_from_its_file() {
     let probed = home.run(&["probe", "sunny.glb", "--points", "p.pts"]);
     let row = probed.out.lines().nth(1).unwrap_or_else(|| panic!("{probed:?}"));
     let lux: f64 = row.split(',').nth(6).unwrap().parse().unwrap();
-    let due = 179e6 * std::f64::consts::TAU * (1.0 - 0.2665_f64.to_radians().cos());
-    // The map keeps single precision; 1 - cos loses ten digits of sixteen.
+    let due = 179e6 * std::f64::consts::PI * 0.2665_f64.to_radians().sin().powi(2);
+    // The map keeps single precision.
     assert!((lux / due - 1.0).abs() < 1e-6, "{lux} {due}");
 }
 
@@ -330,11 +330,10 @@ fn irradiances_are_written_as_rtrace_does() {
     let ran = home.run(&arguments);
     assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{ran:?}");
     let lines = std::fs::read_to_string(home.path("p.res")).unwrap();
-    // Radiance, too: 1e6 W/(sr m2) in its own solid angle of the sun.
-    let due = 1e6 * std::f64::consts::TAU * (1.0 - 0.2665_f64.to_radians().cos());
+    // 1e6 W/(sr m2) in the projected solid angle of the sun.
+    let due = 1e6 * std::f64::consts::PI * 0.2665_f64.to_radians().sin().powi(2);
     assert_eq!(lines.lines().count(), 2, "{lines}");
     for word in lines.split_whitespace() {
-        // 1 - cos loses ten digits of sixteen.
         assert!((word.parse::<f64>().unwrap() / due - 1.0).abs() < 1e-6, "{lines}: {due}");
     }
     for (name, expected) in [("p.csv", ".res"), ("missing/p.res", "missing")] {
@@ -355,8 +354,11 @@ fn a_mesh_without_light_is_solved_from_a_scene_that_gives_it_some() {
     home.file("room.stl", format!("solid floor\n{floor}endsolid floor\n"));
     let dark = home.run(&["solve", "room.stl", "-o", "m.glb"]);
     assert_eq!(dark.code, 2, "{dark:?}");
-    for expected in ["no light; name the file in a scene.toml", "taken as grey 0.5", "2000 m large"]
-    {
+    for expected in [
+        "no light; give it a sky by --sky, or name the file in a scene.toml",
+        "taken as grey 0.5",
+        "2000 m large",
+    ] {
         assert!(dark.err.contains(expected), "{expected}: {dark:?}");
     }
     home.file(

@@ -169,7 +169,11 @@ fn wall() -> Rectangle {
 }
 
 fn sun_parts() -> SceneParts {
-    let kind = LuminaireKind::Directional { direction: towards(SUN), illuminance_lx: SUN_LX };
+    let kind = LuminaireKind::Directional {
+        direction: towards(SUN),
+        illuminance_lx: SUN_LX,
+        half_angle_rad: 0.0,
+    };
     SceneParts {
         name: "directional".into(),
         shapes: vec![

@@ -39,10 +39,15 @@ fn shape(shape: &Shape, scene: &str) -> Value {
 /// Where a luminaire is and how it stands, and the number of its distribution; or where parallel light goes.
 fn luminaire<'a>(lamp: &'a Luminaire, known: &mut Vec<&'a IntensityDistribution>) -> Value {
     match &lamp.kind {
-        LuminaireKind::Directional { direction, illuminance_lx } => json!({
+        LuminaireKind::Directional { direction, illuminance_lx, .. } => json!({
             "name": lamp.name,
             "direction": direction,
             "illuminance_lx": illuminance_lx,
+        }),
+        LuminaireKind::Sky { world_from_sky, sky } => json!({
+            "name": lamp.name,
+            "axes": world_from_sky.columns,
+            "sky": sky,
         }),
         LuminaireKind::Point { position, world_from_luminaire, intensity, .. } => {
             let number = known.iter().position(|d| *d == intensity).unwrap_or_else(|| {

@@ -141,7 +141,7 @@ impl<'a> Drawing<'a> {
 fn centres(scene: &Scene) -> Vec<Point> {
     let points = scene.luminaires().iter().filter_map(|luminaire| match luminaire.kind {
         LuminaireKind::Point { position, .. } => Some(position),
-        LuminaireKind::Directional { .. } => None,
+        LuminaireKind::Directional { .. } | LuminaireKind::Sky { .. } => None,
     });
     let triangles = scene.area_luminaires().iter().flat_map(|area| &area.triangles);
     points.chain(triangles.map(|&triangle| scene.triangle(triangle).centroid())).collect()

@@ -207,7 +207,11 @@ impl Stage {
     /// Parallel light.
     pub(super) fn sun(&mut self, direction: [f64; 3], illuminance_lx: f64) {
         let direction = Vector::from(direction).direction().unwrap_or(-Direction::Z);
-        self.luminaire(LuminaireKind::Directional { direction, illuminance_lx });
+        self.luminaire(LuminaireKind::Directional {
+            direction,
+            illuminance_lx,
+            half_angle_rad: 0.0,
+        });
     }
 
     fn luminaire(&mut self, kind: LuminaireKind) {

@@ -61,6 +61,15 @@ pub fn to_bytes(checkpoint: &Checkpoint) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
+/// Whether a file is a checkpoint, by how it begins.
+pub fn is_checkpoint(path: &Path) -> bool {
+    let mut magic = [0; MAGIC.len()];
+    let is_file = fs::metadata(path).is_ok_and(|known| known.is_file());
+    is_file
+        && File::open(path).and_then(|mut file| file.read_exact(&mut magic)).is_ok()
+        && &magic == MAGIC
+}
+
 /// Reads a checkpoint of any origin that is no longer than `max_bytes`.
 pub fn read(path: &Path, max_bytes: u64) -> Result<Checkpoint, Problem> {
     let bytes = whole(path, max_bytes)?;

@@ -11,9 +11,9 @@ mod file;
 mod integer;
 mod run;
 
-pub use file::{from_bytes, read, to_bytes, write};
+pub use file::{from_bytes, is_checkpoint, read, to_bytes, write};
 pub use integer::Integer;
-pub use run::{Part, of_part, of_pilot, of_state, part, pilot, state};
+pub use run::{Contents, Part, contents, of_part, of_pilot, of_state, part, pilot, state};
 
 use serde_json::Value;
 

@@ -75,6 +75,25 @@ pub struct Part {
     pub part: RunPart,
 }
 
+/// What a checkpoint holds.
+pub enum Contents {
+    /// The state of a run, without its pilot.
+    Run(Box<RunState>),
+    /// The result of a pilot.
+    Pilot(Box<PilotState>),
+    /// A part of a run.
+    Part(Box<Part>),
+}
+
+/// Whatever a checkpoint holds. The error says what is wrong.
+pub fn contents(checkpoint: &Checkpoint) -> Result<Contents, String> {
+    match kind(checkpoint)? {
+        Kind::Run => state(checkpoint).map(Box::new).map(Contents::Run),
+        Kind::Pilot => pilot(checkpoint).map(Box::new).map(Contents::Pilot),
+        Kind::Part => part(checkpoint).map(Box::new).map(Contents::Part),
+    }
+}
+
 /// The state of a run, without its pilot.
 pub fn of_state(state: &RunState) -> Checkpoint {
     let mut checkpoint = with_header(&OfRun {
@@ -183,9 +202,13 @@ fn with_header(header: &impl Serialize) -> Checkpoint {
     Checkpoint::new(serde_json::to_value(header).expect("plain values always have a JSON value"))
 }
 
+fn kind(checkpoint: &Checkpoint) -> Result<Kind, String> {
+    let read = AnyKind::deserialize(&checkpoint.header);
+    read.map(|of| of.kind).map_err(|error| format!("its header is not that of a run ({error})"))
+}
+
 fn header<T: DeserializeOwned>(checkpoint: &Checkpoint, wanted: Kind) -> Result<T, String> {
-    let AnyKind { kind } = AnyKind::deserialize(&checkpoint.header)
-        .map_err(|error| format!("its header is not that of a run ({error})"))?;
+    let kind = kind(checkpoint)?;
     if kind != wanted {
         return Err(format!("it is {}, not {}", kind.name(), wanted.name()));
     }

@@ -46,6 +46,7 @@ pub(super) fn resolve(
         Type::Directional => LuminaireKind::Directional {
             direction: orientation::forward(world_from_node)?,
             illuminance_lx: intensity,
+            half_angle_rad: 0.0,
         },
         Type::Point => {
             let intensity = IntensityDistribution::Isotropic { intensity_cd: intensity };

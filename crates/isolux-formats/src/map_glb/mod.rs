@@ -18,6 +18,7 @@ mod preview;
 mod read;
 mod record;
 mod scene_arrays;
+mod skies;
 mod texels;
 mod value_arrays;
 mod vertices;

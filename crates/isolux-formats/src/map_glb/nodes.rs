@@ -47,7 +47,9 @@ pub(super) fn add_lights(scene: &Scene, objects: &mut Objects) -> Vec<Light> {
         return Vec::new();
     }
     let mut lights = Vec::new();
-    for luminaire in scene.luminaires() {
+    // glTF has no word for a sky.
+    let is_sky = |luminaire: &&Luminaire| matches!(luminaire.kind, LuminaireKind::Sky { .. });
+    for luminaire in scene.luminaires().iter().filter(|luminaire| !is_sky(luminaire)) {
         let (position, along) = place(luminaire);
         objects.nodes.push(Node {
             name: luminaire.name.clone(),
@@ -88,6 +90,7 @@ fn place(luminaire: &Luminaire) -> (Point, Direction) {
             (*position, nadir.unwrap_or(-Direction::Z))
         }
         LuminaireKind::Directional { direction, .. } => (Point::ORIGIN, *direction),
+        LuminaireKind::Sky { .. } => (Point::ORIGIN, -Direction::Z),
     }
 }
 
@@ -97,6 +100,7 @@ fn light(luminaire: &Luminaire) -> Light {
     let (kind, intensity, spot) = match &luminaire.kind {
         LuminaireKind::Directional { illuminance_lx, .. } => ("directional", *illuminance_lx, None),
         LuminaireKind::Point { intensity, .. } => point_light(intensity),
+        LuminaireKind::Sky { .. } => ("directional", 0.0, None),
     };
     // glTF wants channels of at most one; the rest goes into the intensity.
     let peak = luminaire.colour.max_channel();

@@ -5,7 +5,7 @@ use super::lightmap_arrays::LightmapRecord;
 use super::preview::Preview;
 use isolux::geometry::{Direction, Point, Transform};
 use isolux::map::{IlluminationMap, Provenance};
-use isolux::photometry::IntensityDistribution;
+use isolux::photometry::{GeneralSky, IntensityDistribution};
 use isolux::scene::{CalculationGrid, Camera, LuminousArea, Maintenance, Material, UpAxis};
 use isolux::units::Rgb;
 use serde::{Deserialize, Serialize};
@@ -150,5 +150,30 @@ pub(super) enum KindRecord {
     Directional {
         direction: Direction,
         illuminance_lx: f64,
+        #[serde(default, skip_serializing_if = "is_zero")]
+        half_angle_rad: f64,
     },
+    Sky {
+        world_from_sky: Transform,
+        sky: SkyRecord,
+    },
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum SkyRecord {
+    General {
+        sky: GeneralSky,
+        ground_cd_m2: f64,
+    },
+    /// The next `width` times `height` rows of an array.
+    Picture {
+        width: u32,
+        height: u32,
+    },
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+const fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }

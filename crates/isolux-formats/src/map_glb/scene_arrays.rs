@@ -4,7 +4,10 @@ use super::Fault;
 use super::arrays::{self, Arrays, Table};
 use super::bytes::Bytes;
 use super::images;
-use super::record::{KindRecord, LuminaireRecord, SceneRecord, ShapeRecord, TextureRecord};
+use super::record::{
+    KindRecord, LuminaireRecord, SceneRecord, ShapeRecord, SkyRecord, TextureRecord,
+};
+use super::skies::{Pictures, Rows};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux::scene::{Luminaire, LuminaireKind, SceneParts, Shape, Texture};
 use std::collections::HashMap;
@@ -38,13 +41,17 @@ pub(super) fn write(
         arrays::write_floats((bytes, table), LIGHTMAP_UVS, 2, &placed);
     }
     let mut distributions = Distributions::default();
+    let mut pictures = Pictures::default();
+    let mut record = |l| distributions.record(l, &mut pictures);
+    let luminaires = parts.luminaires.into_iter().map(&mut record).collect();
+    pictures.write(bytes, table);
     SceneRecord {
         name: parts.name,
         up: parts.up,
         shapes: parts.shapes.iter().map(shape_record).collect(),
         materials: parts.materials,
         textures: parts.textures.iter().zip(textures).map(texture_record).collect(),
-        luminaires: parts.luminaires.into_iter().map(|l| distributions.record(l)).collect(),
+        luminaires,
         distributions: distributions.table,
         maintenance: parts.maintenance,
         groups: parts.groups,
@@ -79,15 +86,18 @@ struct Distributions {
 }
 
 impl Distributions {
-    fn record(&mut self, luminaire: Luminaire) -> LuminaireRecord {
+    fn record(&mut self, luminaire: Luminaire, pictures: &mut Pictures) -> LuminaireRecord {
         let Luminaire { name, group, colour, kind } = luminaire;
         let kind = match kind {
             LuminaireKind::Point { position, world_from_luminaire, intensity, area } => {
                 let distribution = self.index(intensity);
                 KindRecord::Point { position, world_from_luminaire, distribution, area }
             }
-            LuminaireKind::Directional { direction, illuminance_lx } => {
-                KindRecord::Directional { direction, illuminance_lx }
+            LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad } => {
+                KindRecord::Directional { direction, illuminance_lx, half_angle_rad }
+            }
+            LuminaireKind::Sky { world_from_sky, sky } => {
+                KindRecord::Sky { world_from_sky, sky: pictures.record(sky) }
             }
         };
         LuminaireRecord { name, group, colour, kind }
@@ -131,6 +141,7 @@ pub(super) fn read(record: SceneRecord, arrays: &Arrays<'_>) -> Result<ScenePart
         return Err(Fault::new("extras.isolux.scene.shapes", "leave triangles over"));
     }
     let distributions = &record.distributions;
+    let mut pictures = Rows::of(arrays, record.luminaires.iter().any(is_picture))?;
     Ok(SceneParts {
         name: record.name,
         up: record.up,
@@ -140,7 +151,7 @@ pub(super) fn read(record: SceneRecord, arrays: &Arrays<'_>) -> Result<ScenePart
         luminaires: record
             .luminaires
             .into_iter()
-            .map(|l| luminaire(l, distributions))
+            .map(|l| luminaire(l, distributions, &mut pictures))
             .collect::<Result<_, _>>()?,
         maintenance: record.maintenance,
         groups: record.groups,
@@ -205,9 +216,14 @@ fn textures(records: &[TextureRecord], arrays: &Arrays<'_>) -> Result<Vec<Textur
     records.iter().enumerate().map(texture).collect()
 }
 
+fn is_picture(luminaire: &LuminaireRecord) -> bool {
+    matches!(luminaire.kind, KindRecord::Sky { sky: SkyRecord::Picture { .. }, .. })
+}
+
 fn luminaire(
     record: LuminaireRecord,
     distributions: &[IntensityDistribution],
+    pictures: &mut Rows,
 ) -> Result<Luminaire, Fault> {
     let LuminaireRecord { name, group, colour, kind } = record;
     let kind = match kind {
@@ -221,8 +237,11 @@ fn luminaire(
             let intensity = intensity.clone();
             LuminaireKind::Point { position, world_from_luminaire, intensity, area }
         }
-        KindRecord::Directional { direction, illuminance_lx } => {
-            LuminaireKind::Directional { direction, illuminance_lx }
+        KindRecord::Directional { direction, illuminance_lx, half_angle_rad } => {
+            LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad }
+        }
+        KindRecord::Sky { world_from_sky, sky } => {
+            LuminaireKind::Sky { world_from_sky, sky: pictures.sky(sky, &name)? }
         }
     };
     Ok(Luminaire { name, group, colour, kind })

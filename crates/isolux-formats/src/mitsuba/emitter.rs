@@ -11,10 +11,14 @@ use isolux::units::Rgb;
 /// A spotlight is seen this many degrees beyond its cutoff as dark, so that its table ends there.
 const EDGE_DEG: f64 = 1e-6;
 
-fn luminaire(emitter: &Element, light: Rgb, kind: LuminaireKind) -> Luminaire {
+/// Its own name or, without one, its kind and line.
+pub(super) fn name(emitter: &Element) -> String {
     let usual = format!("{} line {}", emitter.kind(), emitter.at.line);
-    let name = emitter.attribute("id").map_or(usual, str::to_owned);
-    Luminaire { name, group: 0, colour: light.chromaticity(), kind }
+    emitter.attribute("id").map_or(usual, str::to_owned)
+}
+
+fn luminaire(emitter: &Element, light: Rgb, kind: LuminaireKind) -> Luminaire {
+    Luminaire { name: name(emitter), group: 0, colour: light.chromaticity(), kind }
 }
 
 /// The light of an emitter in photometric units.
@@ -93,6 +97,6 @@ pub(super) fn directional(emitter: &Element, efficacy_lm_w: f64) -> Result<Lumin
         None => stand(emitter)?.1,
     };
     let illuminance_lx = irradiance.luminance();
-    let kind = LuminaireKind::Directional { direction, illuminance_lx };
+    let kind = LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad: 0.0 };
     Ok(luminaire(emitter, irradiance, kind))
 }

@@ -39,13 +39,8 @@ pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
 
 /// Reads a scene and the files that it may name.
 pub fn read_with(path: &Path, reach: Reach) -> Result<Loaded<SceneParts>, Problems> {
-    let reading = Reading {
-        unit_is_known: false,
-        is_replaced: &|_| false,
-        efficacy_lm_w: None,
-        is_all: true,
-        reach,
-    };
+    let reading =
+        Reading { unit_is_known: false, is_replaced: &|_| false, efficacy_lm_w: None, reach };
     read_as(path, &reading)
 }
 

@@ -15,7 +15,7 @@ use crate::lines::Notes;
 use crate::reach::Root;
 use crate::round::inside_out;
 use isolux::geometry::{Point, Transform};
-use isolux::scene::{Camera, Luminaire, LuminaireKind, SceneParts, Shape, UpAxis};
+use isolux::scene::{Camera, Luminaire, SceneParts, Shape, UpAxis};
 use isolux::units::Rgb;
 use std::path::Path;
 
@@ -27,8 +27,6 @@ pub(crate) struct Reading<'a> {
     pub(crate) is_replaced: &'a dyn Fn(&str) -> bool,
     /// Lumens for each watt of the file, where somebody chose.
     pub(crate) efficacy_lm_w: Option<f64>,
-    /// Whether the file is all of the scene: nothing lies or shines around it.
-    pub(crate) is_all: bool,
     /// Which files it may name.
     pub(crate) reach: Reach,
 }
@@ -50,8 +48,7 @@ pub(super) fn read(
         shapes: Vec::new(),
         luminaires: Vec::new(),
         cameras: Vec::new(),
-        surroundings: None,
-        is_all: reading.is_all,
+        has_surroundings: false,
         visits_left: limits::SHAPES,
         triangles: 0,
         idle: Vec::new(),
@@ -74,9 +71,8 @@ struct Reader<'a, 'r, 'n> {
     shapes: Vec<Shape>,
     luminaires: Vec<Luminaire>,
     cameras: Vec<Camera>,
-    /// What is seen where there is nothing, and its luminance.
-    surroundings: Option<(&'a Element, Rgb)>,
-    is_all: bool,
+    /// Whether it was said what is seen where there is nothing.
+    has_surroundings: bool,
     visits_left: usize,
     triangles: usize,
     /// What makes pictures, and no light.
@@ -241,9 +237,14 @@ impl<'a> Reader<'a, '_, '_> {
             "point" => emitter::point,
             "spot" => emitter::spot,
             "directional" => emitter::directional,
-            "constant" => return self.constant(emitter),
+            "constant" | "envmap" => return self.surroundings(emitter),
+            "sky" | "sun" | "sunsky" => {
+                let remedy = "remove it, and give the sky by `--sky` or by [sky] of a scene.toml";
+                self.scope.refuse(emitter, "is not read", remedy);
+                return None;
+            }
             _ => {
-                let remedy = "use point, spot, directional, constant, or area on a shape";
+                let remedy = "use point, spot, directional, constant, envmap, or area on a shape";
                 self.scope.refuse(emitter, "is not read", remedy);
                 return None;
             }
@@ -261,32 +262,24 @@ impl<'a> Reader<'a, '_, '_> {
         Some(())
     }
 
-    fn constant(&mut self, emitter: &'a Element) -> Option<()> {
-        let read = emitter::light(emitter, "radiance", self.efficacy_lm_w);
-        let luminance_cd_m2 = self.scope.take(&emitter.at, read)?;
+    /// What is seen where there is nothing.
+    fn surroundings(&mut self, emitter: &'a Element) -> Option<()> {
+        let made = match emitter.kind() {
+            "envmap" => surroundings::picture(emitter, self.efficacy_lm_w, &mut self.scope)?,
+            _ => {
+                let read = surroundings::constant(emitter, self.efficacy_lm_w);
+                self.scope.take(&emitter.at, read)?
+            }
+        };
         self.scope.finish(emitter);
-        if !self.is_all || self.surroundings.is_some() {
-            let what =
-                if self.is_all { "is there twice" } else { "is read only of a scene of its own" };
-            let remedy = "remove it; a luminous rectangle before each window does the same";
-            self.scope.refuse(emitter, what, remedy);
+        if std::mem::replace(&mut self.has_surroundings, true) {
+            let what = "is the second that surrounds the scene";
+            self.scope.refuse(emitter, what, "keep one");
             return None;
         }
         self.say_efficacy(emitter);
-        self.surroundings = Some((emitter, luminance_cd_m2));
+        self.luminaires.push(made);
         Some(())
-    }
-
-    /// A box that would keep the sun out.
-    fn refuse_sky_with_sun(&mut self) {
-        let has_sun =
-            self.luminaires.iter().any(|l| matches!(l.kind, LuminaireKind::Directional { .. }));
-        if let Some((emitter, _)) = self.surroundings.filter(|_| has_sun) {
-            let what = "is not read beside directional light";
-            let remedy =
-                "keep one of them; a luminous rectangle before each window does what it does";
-            self.scope.refuse(emitter, what, remedy);
-        }
     }
 
     fn say_efficacy(&mut self, emitter: &Element) {
@@ -330,7 +323,6 @@ impl<'a> Reader<'a, '_, '_> {
     }
 
     fn finish(mut self, path: &Path) -> SceneParts {
-        self.refuse_sky_with_sun();
         for lamp in self.lamps.iter().filter(|lamp| !lamp.is_used.get()) {
             let remedy = "refer to it from a shape by <ref>, or remove it";
             self.scope.warn(lamp, "lights nothing, as no shape refers to it", remedy);
@@ -345,7 +337,7 @@ impl<'a> Reader<'a, '_, '_> {
             self.scope.notes.warning(&first.at, what, remedy);
         }
         let (materials, textures) = self.palette.finish();
-        let mut parts = SceneParts {
+        SceneParts {
             name: path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into()),
             up: up(&self.cameras),
             shapes: self.shapes,
@@ -354,11 +346,7 @@ impl<'a> Reader<'a, '_, '_> {
             luminaires: self.luminaires,
             cameras: self.cameras,
             ..SceneParts::default()
-        };
-        if let Some((_, luminance_cd_m2)) = self.surroundings {
-            surroundings::add(&mut parts, luminance_cd_m2);
         }
-        parts
     }
 }
 

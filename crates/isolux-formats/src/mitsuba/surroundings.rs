@@ -1,75 +1,73 @@
-//! Light that comes from everywhere alike, `constant`: a luminous box around the scene gives exactly
-//! the same at every place within it, whatever its size, because luminance does not fall with distance.
+//! Light that comes from everywhere, infinitely far away: `constant` and `envmap`.
 
-use isolux::scene::{Finish, LuminaireKind, Material, SceneParts, Shape};
+use super::emitter;
+use super::property::{float, transform};
+use super::record::{Element, Wrong};
+use super::scope::Scope;
+use crate::sky_picture;
+use isolux::geometry::{Transform, Vector};
+use isolux::photometry::{GeneralSky, Sky};
+use isolux::scene::{Luminaire, LuminaireKind};
 use isolux::units::Rgb;
+use std::sync::Arc;
 
-/// How far its faces stay away, in sizes of the scene: the nearer, the less of their light is lost
-/// to luminaires chosen by flux.
-const MARGIN: f64 = 0.01;
-const NAME: &str = "constant emitter";
+/// How far axes may be off right angles and one length, in shares: numbers of six digits.
+const ROUNDED: f64 = 1e-5;
 
-/// Puts the box around all surfaces, luminaires and cameras.
-pub(super) fn add(parts: &mut SceneParts, luminance_cd_m2: Rgb) {
-    let eyes = parts.cameras.iter().map(|camera| <[f64; 3]>::from(camera.position));
-    let lamps = parts.luminaires.iter().filter_map(|luminaire| match luminaire.kind {
-        LuminaireKind::Point { position, .. } => Some(<[f64; 3]>::from(position)),
-        LuminaireKind::Directional { .. } => None,
-    });
-    let surfaces = parts.shapes.iter().flat_map(|shape| shape.positions.iter().copied());
-    let places = surfaces.chain(eyes).chain(lamps);
-    let (mut low, mut high) = ([f64::MAX; 3], [f64::MIN; 3]);
-    for place in places {
-        for axis in 0..3 {
-            low[axis] = low[axis].min(place[axis]);
-            high[axis] = high[axis].max(place[axis]);
-        }
-    }
-    let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-    // Nothing, or places that the scene will refuse.
-    if !(size > 0.0 && size.is_finite()) {
-        return;
-    }
-    let corner = |k: usize| {
-        std::array::from_fn(|axis| {
-            if k >> axis & 1 == 1 { high[axis] + MARGIN * size } else { low[axis] - MARGIN * size }
-        })
-    };
-    // Seen from within, corners turn counter-clockwise.
-    let faces: [[u32; 4]; 6] =
-        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
-    let finish = Finish { luminance_cd_m2, ..Finish::BLACK };
-    parts.shapes.push(Shape {
-        name: NAME.into(),
-        positions: (0..8).map(corner).collect(),
-        triangles: faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
-        material: parts.materials.len() as u32,
-        ..Shape::default()
-    });
-    parts.materials.push(Material::one_sided(NAME, finish));
+/// The same luminance on all sides.
+pub(super) fn constant(element: &Element, efficacy_lm_w: f64) -> Result<Luminaire, Wrong> {
+    let luminance_cd_m2 = emitter::light(element, "radiance", efficacy_lm_w)?;
+    let level = luminance_cd_m2.luminance();
+    let sky = Sky::General { sky: GeneralSky::uniform(level), ground_cd_m2: level };
+    Ok(surrounding(element, luminance_cd_m2.chromaticity(), Transform::IDENTITY, sky))
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use isolux::geometry::Vector;
-
-    #[test]
-    fn the_box_faces_inwards() {
-        let mut parts = SceneParts::default();
-        let positions = vec![[1.0, 2.0, 3.0], [2.0, 4.0, 3.5]];
-        parts.shapes.push(Shape { positions, ..Shape::default() });
-        add(&mut parts, Rgb::WHITE);
-        let shape = &parts.shapes[1];
-        assert_eq!(
-            (shape.positions[0], shape.positions[7]),
-            ([0.98, 1.98, 2.98], [2.02, 4.02, 3.52])
-        );
-        let middle = Vector::new(1.5, 3.0, 3.25);
-        for t in &shape.triangles {
-            let [a, b, c] = t.map(|k| Vector::from(shape.positions[k as usize]));
-            assert!((b - a).cross(c - a).dot(middle - a) > 0.0);
-        }
-        assert_eq!(shape.triangles.len(), 12);
+/// A picture all around; `None` after a problem.
+pub(super) fn picture(
+    element: &Element,
+    efficacy_lm_w: f64,
+    scope: &mut Scope,
+) -> Option<Luminaire> {
+    let scale = scope.take(&element.at, float(element, "scale"))?.unwrap_or(1.0);
+    if scale < 0.0 {
+        scope.refuse(element, "has a scale below 0", "give 0 or more");
+        return None;
     }
+    let map = scope.take(&element.at, transform(element, "to_world"))?;
+    let Some(turn) = turn(&map) else {
+        let what = "is distorted by its `to_world`";
+        scope.refuse(element, what, "turn it, and scale all axes alike");
+        return None;
+    };
+    let path = scope.file(element)?;
+    let read = sky_picture::read(&path);
+    if read.is_err() {
+        let what = "names a picture that cannot be used, for the reason that follows";
+        scope.refuse(element, what, "mend it, or name another file");
+    }
+    let picture = scope.notes.findings().absorb(read)?.picture;
+    let sky = Sky::Picture(Arc::new(picture)).scaled(scale * efficacy_lm_w);
+    let world_from_sky = turn.then_from(&own_from_sky());
+    Some(surrounding(element, Rgb::WHITE, world_from_sky, sky))
+}
+
+fn surrounding(element: &Element, colour: Rgb, world_from_sky: Transform, sky: Sky) -> Luminaire {
+    let kind = LuminaireKind::Sky { world_from_sky, sky };
+    Luminaire { name: emitter::name(element), group: 0, colour, kind }
+}
+
+/// Mitsuba's pictures have +y above and -z at the left border; from there they go by +x.
+fn own_from_sky() -> Transform {
+    let axes = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]];
+    Transform { columns: axes.map(Vector::from), translation: Vector::ZERO }
+}
+
+/// The turn (or mirror image) in a map without distortion.
+fn turn(map: &Transform) -> Option<Transform> {
+    let scale = libm::cbrt(map.determinant().abs());
+    let columns = map.columns.map(|column| column / scale);
+    let [a, b, c] = columns;
+    let is_square = [a.dot(b), b.dot(c), c.dot(a)].iter().all(|cos| cos.abs() <= ROUNDED);
+    let is_even = columns.iter().all(|axis| (axis.length() - 1.0).abs() <= ROUNDED);
+    (is_square && is_even).then_some(Transform { columns, translation: Vector::ZERO })
 }

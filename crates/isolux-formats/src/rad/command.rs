@@ -3,6 +3,7 @@
 use super::argument_files::{self, Lookup};
 use super::genbox;
 use super::record::Object;
+use super::sky_commands;
 use super::words::{number, stages};
 use super::xform::{self, Xform};
 use isolux::units::Rgb;
@@ -47,9 +48,10 @@ pub(super) fn parse(text: &str, line: usize, lookup: Lookup) -> Result<Vec<Comma
     all.iter().map(|stages| of_stages(stages, text, line)).collect()
 }
 
-const COMMANDS: &str = "commands are not run; only xform, genbox, ies2rad and cat, joined by pipes, are \
+const COMMANDS: &str = "commands are not run; only xform, genbox, ies2rad, gensky, gendaylit and cat, joined by pipes, are \
                         understood: run it yourself and name the file it writes by `!xform FILE`";
 const ARGUMENTS: &str = "see the manual of the command";
+const RUN_IT: &str = "run it yourself, and name the file with what it writes by `!xform FILE`";
 
 /// What the stages of one command mean.
 fn of_stages(all: &[Vec<String>], text: &str, line: usize) -> Result<Command, Refusal> {
@@ -59,6 +61,7 @@ fn of_stages(all: &[Vec<String>], text: &str, line: usize) -> Result<Command, Re
         return Err(("`!` without a command".into(), "remove it"));
     };
     let wrong = |what: String| (format!("`!{program}`: {what}"), ARGUMENTS);
+    let sky = |what: String| (format!("`!{program}`: {what}"), RUN_IT);
     let mut stages = Vec::new();
     let source = match program.as_str() {
         "xform" => {
@@ -70,11 +73,8 @@ fn of_stages(all: &[Vec<String>], text: &str, line: usize) -> Result<Command, Re
         "cat" => Source::Files(words.to_vec()),
         "genbox" => Source::Objects(genbox::objects(words, line).map_err(wrong)?),
         "ies2rad" => Source::Ies(ies2rad(words).map_err(wrong)?),
-        "gensky" | "gendaylit" => {
-            let what = format!("`!{program}`: skies are not read");
-            let remedy = "run it, and keep of what it writes the sun: a light and a source";
-            return Err((what, remedy));
-        }
+        "gensky" => Source::Objects(sky_commands::gensky(words, line).map_err(sky)?),
+        "gendaylit" => Source::Objects(sky_commands::gendaylit(words, line).map_err(sky)?),
         _ => return Err((format!("`!{}` is not run", shown(program)), COMMANDS)),
     };
     if matches!(&source, Source::Files(files) if files.is_empty()) {

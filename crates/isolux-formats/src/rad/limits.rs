@@ -19,5 +19,7 @@ pub(super) const CHAIN: usize = 256;
 pub(super) const MIXTURES: usize = 8;
 /// Triangles of the whole scene.
 pub(super) const TRIANGLES: usize = 1 << 25;
+/// Sources so wide that they are part of a sky.
+pub(super) const SKIES: usize = 16;
 /// Luminaires of the whole scene.
 pub(super) const LUMINAIRES: usize = 1 << 18;

@@ -5,6 +5,7 @@ use super::material::{self, Made};
 use super::mixture;
 use super::modifiers::{Definition, Modifiers, Named};
 use super::record::{Kind, kind_of};
+use super::sky_function;
 use super::words::number;
 use crate::lines::{At, Notes};
 use isolux::scene::Body;
@@ -18,6 +19,8 @@ pub(super) struct Look {
     pub(super) made: Made,
     /// The `brightdata` of a light.
     pub(super) table: Option<usize>,
+    /// What the brightness of a sky varies by.
+    pub(super) sky: Option<usize>,
 }
 
 impl Look {
@@ -52,7 +55,7 @@ fn look_at_depth(
     let name = modifiers.get(modifier).object.name.clone();
     let material = match chain.follow(Named::Known(modifier), notes) {
         Ok(Some(index)) => index,
-        Ok(None) => return Some(Look { name, made: Made::Invisible, table: None }),
+        Ok(None) => return Some(Look { name, made: Made::Invisible, table: None, sky: None }),
         Err(()) => return None,
     };
     let definition = modifiers.get(material);
@@ -62,9 +65,9 @@ fn look_at_depth(
     };
     // A material may modify a material; then only the first counts.
     chain.follow(definition.modifier, notes).ok()?;
-    let mut look = Look { name, made, table: None };
-    look.table = chain.end(&look, &definition.at, notes)?;
-    Some(look)
+    let look = Look { name, made, table: None, sky: None };
+    let (table, sky) = chain.end(&look, &definition.at, notes)?;
+    Some(Look { table, sky, ..look })
 }
 
 /// The share of the first of two materials where only a function would tell it.
@@ -95,7 +98,7 @@ fn mixed(
         Named::Unknown => None,
         Named::Known(index) => {
             let look = look_at_depth(index, modifiers, notes, depth + 1)?;
-            match look.table {
+            match look.table.or(look.sky) {
                 None => Some(look.made),
                 Some(_) => refuse(notes, "mixes a light with a table of intensities"),
             }
@@ -176,9 +179,14 @@ impl Chain<'_> {
         self.follow(modifier, notes).map(|_| ())
     }
 
-    /// The one pattern of a light that is read; `None` after a problem.
-    fn end(&self, look: &Look, at: &At, notes: &mut Notes) -> Option<Option<usize>> {
-        let mut table = None;
+    /// The one pattern of a light that is read, a table or a function of a sky; `None` after a problem.
+    fn end(
+        &self,
+        look: &Look,
+        at: &At,
+        notes: &mut Notes,
+    ) -> Option<(Option<usize>, Option<usize>)> {
+        let (mut table, mut sky) = (None, None);
         for &index in &self.patterns {
             let definition = self.modifiers.get(index);
             let label = format!("{} `{}`", definition.object.type_, definition.object.name);
@@ -190,10 +198,12 @@ impl Chain<'_> {
                 notes.warning(&definition.at, what, "give the material its mean colour");
             } else if definition.object.type_ == "brightdata" && self.patterns.len() == 1 {
                 table = Some(index);
+            } else if sky_function::is_one(&definition.object) && self.patterns.len() == 1 {
+                sky = Some(index);
             } else {
                 let what =
                     format!("{label}: patterns of lights are not read, as of `{}`", look.name);
-                let remedy = "only one brightdata as ies2rad writes it is; name the photometric file \
+                let remedy = "only one brightdata as ies2rad writes it is, or one brightfunc of gensky or gendaylit; name the photometric file \
                               in `!ies2rad FILE.ies` or in a [[luminaire]] of a scene.toml";
                 notes.problem(&definition.at, what, remedy);
                 return None;
@@ -204,6 +214,6 @@ impl Chain<'_> {
             notes.problem(at, what, "use a light instead of the spotlight");
             return None;
         }
-        Some(table)
+        Some((table, sky))
     }
 }

@@ -11,9 +11,8 @@ use isolux::units::Rgb;
 use std::f64::consts::PI;
 use std::path::Path;
 
-/// Full angle, degrees, up to which a source is taken as parallel light. The shade of an edge 1 m
-/// away is then blurred by 17 cm at most, and solid angle and projected solid angle differ by 0.2 %.
-const WIDEST_SOURCE_DEG: f64 = 10.0;
+/// Full angle, degrees, up to which a source is taken as a disc, whose solid angle and projected solid angle differ by 0.2 % at most.
+pub(super) const WIDEST_DISC_DEG: f64 = 10.0;
 /// Share of the outer angle at which a spotlight begins to fade, so that there is a ramp.
 const SHARP: f64 = 0.999;
 
@@ -21,13 +20,11 @@ fn luminaire(name: String, colour: Rgb, kind: LuminaireKind) -> Luminaire {
     Luminaire { name, group: 0, colour: colour.chromaticity(), kind }
 }
 
-/// A `source` of small angle: the illuminance is luminance times solid angle.
-pub(super) fn distant(
-    name: String,
+/// Where a `source` is, and its full angle in degrees.
+pub(super) fn cone(
     numbers: &[f64],
-    luminance_cd_m2: Rgb,
     world_from_file: &Transform,
-) -> Result<Luminaire, (String, &'static str)> {
+) -> Result<(Direction, f64), (String, &'static str)> {
     let [x, y, z, angle_deg] = *numbers else {
         return Err((
             format!("{} real arguments where 4 are due", numbers.len()),
@@ -39,17 +36,24 @@ pub(super) fn distant(
     if !(angle_deg > 0.0 && angle_deg <= 360.0) {
         return Err((format!("an angle of {angle_deg} degrees"), "write its full angle"));
     }
-    if angle_deg > WIDEST_SOURCE_DEG {
-        let what = format!("{angle_deg} degrees wide: skies and other large sources are not read");
-        let remedy = "take it out; put a luminous polygon before each window, as a sky of that \
-                      luminance, or parallel light of up to 10 degrees";
-        return Err((what, remedy));
-    }
-    let half = libm::sin(angle_deg.to_radians() / 4.0);
-    let solid_angle_sr = 4.0 * PI * half * half;
-    let illuminance_lx = luminance_cd_m2.luminance() * solid_angle_sr;
-    let kind = LuminaireKind::Directional { direction: -towards, illuminance_lx };
-    Ok(luminaire(name, luminance_cd_m2, kind))
+    Ok((towards, angle_deg))
+}
+
+/// A `source` of small angle: the illuminance is luminance times solid angle.
+pub(super) fn disc(
+    name: String,
+    (towards, angle_deg): (Direction, f64),
+    luminance_cd_m2: Rgb,
+) -> Luminaire {
+    // Of a surface that faces it: luminance times the projected solid angle.
+    let sin = libm::sin(0.5 * angle_deg.to_radians());
+    let illuminance_lx = luminance_cd_m2.luminance() * PI * sin * sin;
+    let kind = LuminaireKind::Directional {
+        direction: -towards,
+        illuminance_lx,
+        half_angle_rad: 0.5 * angle_deg.to_radians(),
+    };
+    luminaire(name, luminance_cd_m2, kind)
 }
 
 /// A spotlight in the middle of its surface, with the flux that the surface sends into its cone.

@@ -11,6 +11,8 @@ use super::modifiers::{Modifiers, Named};
 use super::named_files::named_file;
 use super::parse::parse;
 use super::record::{Item, Kind, Object, kind_of};
+use super::skies::{Skies, Wide};
+use super::sky_function::SkyFunction;
 use super::tables::Tables;
 use super::tessellate::tessellate;
 use crate::Reach;
@@ -18,7 +20,7 @@ use crate::efficacy::EFFICACY_LM_W;
 use crate::lines::{At, Notes};
 use crate::reach::{Root, Unreachable, directory_of};
 use crate::source;
-use isolux::geometry::Point;
+use isolux::geometry::{Direction, Point};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Body, Finish, SceneParts};
 use std::collections::HashMap;
@@ -40,6 +42,7 @@ pub(super) struct Reader<'a> {
     modifiers: Modifiers,
     looks: HashMap<usize, Option<Rc<Look>>>,
     tables: Tables,
+    skies: Skies,
     builder: Builder,
     first_light: Option<At>,
 }
@@ -61,6 +64,7 @@ impl<'a> Reader<'a> {
             modifiers: Modifiers::default(),
             looks: HashMap::new(),
             tables: Tables::default(),
+            skies: Skies::default(),
             builder: Builder::default(),
             first_light: None,
         }
@@ -81,6 +85,7 @@ impl<'a> Reader<'a> {
             }
         }
         self.tables.finish(&self.modifiers, &self.roots, &mut self.builder, &mut self.notes);
+        self.builder.luminaires.extend(self.skies.luminaire());
         if let Some(at) = &self.first_light {
             let what = format!(
                 "radiances are read as luminances of {EFFICACY_LM_W} lm/W: 179 (0.265 red + 0.670 green + \
@@ -303,7 +308,7 @@ impl<'a> Reader<'a> {
     fn look_of(&mut self, name: &str, at: &At) -> Option<Rc<Look>> {
         if (self.is_replaced)(name) {
             let made = Made::Body(Body::Opaque { front: Finish::BLACK, back: Finish::BLACK });
-            return Some(Rc::new(Look { name: name.to_owned(), made, table: None }));
+            return Some(Rc::new(Look { name: name.to_owned(), made, table: None, sky: None }));
         }
         match self.modifiers.find(name) {
             Named::Nothing => {
@@ -326,15 +331,7 @@ impl<'a> Reader<'a> {
     fn surface(&mut self, object: &Object, at: &At, frame: &Frame) -> Going {
         let label = format!("{} `{}`", object.type_, frame.name(&object.name));
         if matches!(object.type_.as_str(), "mesh" | "instance") {
-            let remedy = "name the .rad or .obj file it was compiled from: the first by `!xform FILE`, the \
-                          other in a scene.toml";
-            let file = object.strings.first().map_or("", String::as_str);
-            self.notes.problem(
-                at,
-                format!("{label}: compiled geometry, `{file}`, is not read"),
-                remedy,
-            );
-            return Some(());
+            return self.refuse_compiled(object, &label, at);
         }
         let modifier = frame.modifier.as_deref().unwrap_or(&object.modifier);
         let Some(look) = self.look_of(modifier, at) else { return Some(()) };
@@ -343,6 +340,11 @@ impl<'a> Reader<'a> {
         }
         if object.type_ == "source" {
             return self.distant(object, &label, &look, at, frame);
+        }
+        if look.sky.is_some() {
+            let what = format!("{label}: `{}` varies as a sky does, and is no source", look.name);
+            self.notes.problem(at, what, "use it for a `source`");
+            return Some(());
         }
         let made = match tessellate(object, look.is_emitter()) {
             Ok(made) => made,
@@ -384,6 +386,15 @@ impl<'a> Reader<'a> {
         }
     }
 
+    fn refuse_compiled(&mut self, object: &Object, label: &str, at: &At) -> Going {
+        let remedy = "name the .rad or .obj file it was compiled from: the first by `!xform FILE`, the \
+                      other in a scene.toml";
+        let file = object.strings.first().map_or("", String::as_str);
+        let what = format!("{label}: compiled geometry, `{file}`, is not read");
+        self.notes.problem(at, what, remedy);
+        Some(())
+    }
+
     fn spot(
         &mut self,
         made: Result<isolux::scene::Luminaire, String>,
@@ -420,17 +431,42 @@ impl<'a> Reader<'a> {
             self.notes.problem(at, what, "use a light without pattern");
             return Some(());
         }
-        let name = frame.name(&object.name);
-        let luminance = look.luminance_cd_m2();
-        let made = luminaires::distant(name, &object.numbers, luminance, &frame.world_from_file);
-        match made {
+        match luminaires::cone(&object.numbers, &frame.world_from_file) {
             // What is dark lights nothing, however large it is.
             _ if !look.is_emitter() => Some(()),
-            Ok(luminaire) => self.add_luminaire(Some(luminaire), at),
+            Ok(cone) => self.cone(cone, (frame.name(&object.name), label), look, at),
             Err((what, remedy)) => {
                 self.notes.problem(at, format!("{label}: {what}"), remedy);
                 Some(())
             }
         }
+    }
+
+    /// A source that shines: a disc, or a part of the sky.
+    fn cone(
+        &mut self,
+        (towards, angle_deg): (Direction, f64),
+        (name, label): (String, &str),
+        look: &Look,
+        at: &At,
+    ) -> Going {
+        let luminance_cd_m2 = look.luminance_cd_m2();
+        if look.sky.is_none() && angle_deg <= luminaires::WIDEST_DISC_DEG {
+            let disc = luminaires::disc(name, (towards, angle_deg), luminance_cd_m2);
+            return self.add_luminaire(Some(disc), at);
+        }
+        let function = look.sky.map(|index| SkyFunction::of(self.modifiers.get(index)));
+        let function = match function.transpose() {
+            Ok(function) => function,
+            Err(what) => {
+                let what = format!("{label}: the function of `{}` {what}", look.name);
+                self.notes.problem(at, what, "write it by gensky or gendaylit again");
+                return Some(());
+            }
+        };
+        if self.skies.add(Wide { name, towards, angle_deg, luminance_cd_m2, function }) {
+            return Some(());
+        }
+        self.full(at, format!("more than {} wide sources", limits::SKIES))
     }
 }

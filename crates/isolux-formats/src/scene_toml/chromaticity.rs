@@ -44,13 +44,21 @@ fn daylight(t: f64) -> (f64, f64) {
     (x, (-3.0 * x + 2.870) * x - 0.275)
 }
 
+/// What a luminance of one may be off in a file: the rounding of three channels.
+const ROUNDING: f64 = 1e-15;
+
+/// The chromaticity of a colour. One that has a luminance of one, up to rounding, stays bit by bit: what was written is read again.
+fn chromaticity(colour: Rgb) -> Rgb {
+    if (colour.luminance() - 1.0).abs() <= ROUNDING { colour } else { colour.chromaticity() }
+}
+
 /// The colour that is given, if any; `None` after a problem.
 #[expect(clippy::option_option, reason = "a problem is not the same as no colour")]
 pub(super) fn given(record: &LightRecord, context: &mut Context) -> Option<Option<Rgb>> {
     match (record.colour, record.cct_k) {
         (None, None) => Some(None),
         (Some(colour), None) if colour.get_ref().0.luminance() > 0.0 => {
-            Some(Some(colour.get_ref().0.chromaticity()))
+            Some(Some(chromaticity(colour.get_ref().0)))
         }
         (Some(colour), None) => {
             context.problem(&colour.span(), "black has no colour", "use `dimming = 0`");

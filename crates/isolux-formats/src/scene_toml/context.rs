@@ -126,6 +126,20 @@ impl Context {
         }
     }
 
+    /// What another file holds; a problem there is told of the place that names it, too.
+    pub(super) fn absorb<T>(
+        &mut self,
+        at: &Span,
+        name: &str,
+        read: Result<Loaded<T>, Problems>,
+    ) -> Option<T> {
+        if read.is_err() {
+            let what = format!("`{name}` cannot be used, for the reason that follows");
+            self.problem(at, what, "mend it, or name another file");
+        }
+        self.findings.absorb(read)
+    }
+
     /// Sets triangles aside before they are made; whether there was room.
     pub(super) fn take_triangles(&mut self, at: &Span, count: usize, copies: usize) -> bool {
         let Some(left) = left_after(self.triangles_left, count, copies) else {

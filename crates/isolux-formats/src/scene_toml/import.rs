@@ -101,7 +101,6 @@ fn open(
                 unit_is_known: record.units.is_some(),
                 is_replaced: &is_replaced,
                 efficacy_lm_w: record.efficacy_lm_w.as_ref().map(|e| e.get_ref().0),
-                is_all: false,
                 reach,
             };
             (mitsuba::read_as(path, &reading), 1.0)
@@ -181,7 +180,7 @@ impl Import {
             LuminaireKind::Point { intensity, .. } => {
                 !matches!(intensity, IntensityDistribution::Isotropic { .. })
             }
-            LuminaireKind::Directional { .. } => true,
+            LuminaireKind::Directional { .. } | LuminaireKind::Sky { .. } => true,
         };
         self.parts.luminaires.iter().any(|l| is_aimed(&l.kind))
     }
@@ -230,12 +229,17 @@ impl Import {
                     area: *area,
                 }
             }
-            LuminaireKind::Directional { direction, illuminance_lx } => {
+            LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad } => {
                 LuminaireKind::Directional {
                     direction: turned(&turn, *direction),
                     illuminance_lx: *illuminance_lx,
+                    half_angle_rad: *half_angle_rad,
                 }
             }
+            LuminaireKind::Sky { world_from_sky, sky } => LuminaireKind::Sky {
+                world_from_sky: turn.then_from(world_from_sky),
+                sky: sky.clone(),
+            },
         };
         let moved = |l: &Luminaire| Luminaire { kind: kind(&l.kind), group: 0, ..l.clone() };
         self.parts.luminaires.iter().map(moved).collect()

@@ -3,63 +3,20 @@
 use super::aim::{Aim, direction_of, point_m};
 use super::chromaticity;
 use super::context::Context;
+use super::groups::Groups;
 use super::library::Libraries;
 use super::photometry::{self, Emission, Files};
 use super::quantity::plain;
-use super::record::{ArrayRecord, DirectionalRecord, GroupRecord, LuminaireRecord};
+use super::record::{ArrayRecord, DirectionalRecord, LuminaireRecord};
+use super::sky;
+use super::sky_record::LuminancesRecord;
 use super::spans::At;
 use isolux::geometry::{Point, Vector};
 use isolux::scene::{Luminaire, LuminaireKind, Maintenance, SceneParts, world_from_luminaire};
 use isolux::units::Rgb;
-use std::collections::HashMap;
 
-/// The group of light that names none.
-const UNGROUPED: &str = "ungrouped";
-
-/// Light groups by name. Without any named group there is no list at all.
-#[derive(Debug, Default)]
-pub(super) struct Groups {
-    pub(super) names: Vec<String>,
-    index_of: HashMap<String, u32>,
-}
-
-impl Groups {
-    /// The declared groups, after one for light without group if there is such light.
-    pub(super) fn new(
-        declared: &[GroupRecord],
-        luminaires: &[At<LuminaireRecord>],
-        scene: &SceneParts,
-    ) -> Self {
-        let mut groups = Self::default();
-        let any_named =
-            !declared.is_empty() || luminaires.iter().any(|l| l.get_ref().group.is_some());
-        let any_unnamed = !scene.luminaires.is_empty()
-            || luminaires.iter().any(|l| l.get_ref().group.is_none())
-            || scene.shapes.iter().any(|shape| emits(scene, shape.material));
-        if any_named && any_unnamed {
-            groups.index(UNGROUPED);
-        }
-        for group in declared {
-            groups.index(group.name.get_ref());
-        }
-        groups
-    }
-
-    fn index(&mut self, name: &str) -> u32 {
-        if let Some(&known) = self.index_of.get(name) {
-            return known;
-        }
-        let index = self.names.len() as u32;
-        self.names.push(name.to_owned());
-        self.index_of.insert(name.to_owned(), index);
-        index
-    }
-}
-
-fn emits(scene: &SceneParts, material: u32) -> bool {
-    let Some(material) = scene.materials.get(material as usize) else { return false };
-    [false, true].iter().any(|&back| material.finish(back).is_some_and(|f| f.is_emitter()))
-}
+/// Light from afar stands below a half-space.
+const WIDEST_DEG: f64 = 180.0;
 
 /// Adds all luminaires of the file to the scene.
 pub(super) fn add(
@@ -113,12 +70,17 @@ fn kinds(
         ("cosine", record.cosine.is_some()),
         ("spot", record.spot.is_some()),
         ("directional", record.directional.is_some()),
+        ("sky", record.sky.is_some()),
         ("ies", record.ies.is_some()),
         ("ldt", record.ldt.is_some()),
     ];
     context.one_of(&entry.span(), &format!("luminaire `{name}`"), &choices)?;
-    if let Some(sun) = &record.directional {
-        let kind = directional(sun, entry, context)?;
+    let far = match (&record.directional, &record.sky) {
+        (Some(sun), _) => Some(directional(sun, entry, context)?),
+        (None, Some(sky)) => Some(sky_of(sky, record, context)?),
+        (None, None) => None,
+    };
+    if let Some(kind) = far {
         let one = context.take_luminaires(&entry.span(), 1, 1);
         let maintenance = record.maintenance_factor.map(|m| m.0);
         return one.then(|| Kinds {
@@ -176,12 +138,33 @@ fn of_library(
     })
 }
 
-fn directional(
-    sun: &At<DirectionalRecord>,
-    entry: &At<LuminaireRecord>,
+/// What dims light that comes from infinitely far away.
+fn dimming(record: &LuminaireRecord) -> f64 {
+    record.dimming.map_or(1.0, |d| d.0) * record.maintenance_factor.map_or(1.0, |m| m.0)
+}
+
+fn sky_of(
+    sky: &At<LuminancesRecord>,
+    record: &LuminaireRecord,
     context: &mut Context,
 ) -> Option<LuminaireKind> {
-    let record = entry.get_ref();
+    refuse_without_meaning(record, "a sky", "remove it; `north_deg` turns a sky", context);
+    if let Some(direction) = &record.direction {
+        context.problem(
+            &direction.span(),
+            "`direction` of a sky",
+            "remove it; give `sun` in `sky`",
+        );
+    }
+    sky::kind_of_entry(sky, dimming(record), context)
+}
+
+fn refuse_without_meaning(
+    record: &LuminaireRecord,
+    whose: &str,
+    remedy: &str,
+    context: &mut Context,
+) {
     let without_meaning = [
         ("position", record.position.as_ref().map(At::span)),
         ("target", record.target.as_ref().map(At::span)),
@@ -193,10 +176,19 @@ fn directional(
     ];
     for (key, span) in without_meaning {
         if let Some(span) = span {
-            let what = format!("`{key}` of a directional luminaire");
-            context.problem(&span, what, "remove it; give `direction`, where the light goes");
+            context.problem(&span, format!("`{key}` of {whose}"), remedy);
         }
     }
+}
+
+fn directional(
+    sun: &At<DirectionalRecord>,
+    entry: &At<LuminaireRecord>,
+    context: &mut Context,
+) -> Option<LuminaireKind> {
+    let record = entry.get_ref();
+    let remedy = "remove it; give `direction`, where the light goes";
+    refuse_without_meaning(record, "a directional luminaire", remedy, context);
     let Some(direction) = &record.direction else {
         let what = "a directional luminaire without `direction`";
         context.problem(&sun.span(), what, "give the direction in which its light goes");
@@ -204,10 +196,21 @@ fn directional(
     };
     Some(LuminaireKind::Directional {
         direction: direction_of(direction, context)?,
-        illuminance_lx: sun.get_ref().illuminance_lx.0
-            * record.dimming.map_or(1.0, |d| d.0)
-            * record.maintenance_factor.map_or(1.0, |m| m.0),
+        illuminance_lx: sun.get_ref().illuminance_lx.0 * dimming(record),
+        half_angle_rad: half_angle_rad(sun.get_ref(), context)?,
     })
+}
+
+/// Half of the angle under which light from afar is seen.
+fn half_angle_rad(sun: &DirectionalRecord, context: &mut Context) -> Option<f64> {
+    let Some(angle) = &sun.angle_deg else { return Some(0.0) };
+    let angle_deg = angle.get_ref().0;
+    if angle_deg < WIDEST_DEG {
+        return Some((0.5 * angle_deg).to_radians());
+    }
+    let what = format!("an `angle_deg` of {angle_deg}");
+    context.problem(&angle.span(), what, "give the full angle, below 180: the sun's is 0.533");
+    None
 }
 
 /// Positions of an entry, each with its indices in the array.

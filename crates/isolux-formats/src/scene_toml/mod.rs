@@ -6,6 +6,7 @@ mod chromaticity;
 mod context;
 mod geometry;
 mod grids;
+mod groups;
 mod import;
 mod inline;
 mod library;
@@ -19,6 +20,8 @@ mod quantity;
 mod record;
 mod resolve;
 mod shapes;
+mod sky;
+mod sky_record;
 mod spans;
 mod text;
 mod write;
@@ -30,7 +33,8 @@ use isolux::scene::SceneParts;
 use isolux::units::Rgb;
 use std::path::Path;
 
-pub use write::{NamedPhotometry, SceneFile, write};
+pub use sky::{SkyAsked, put_sky};
+pub use write::{NamedPhotometry, SceneFile, WriteError, write};
 
 /// Reads a scene and all files it names, which must lie in its directory tree; on failure, all
 /// problems with line and column.

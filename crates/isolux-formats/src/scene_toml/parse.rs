@@ -2,13 +2,14 @@
 
 use super::context::Context;
 use super::record::{LibraryRecord, SceneFile};
+use super::sky_record::SkyRecord;
 use super::spans::{At, Span};
 use serde::de::DeserializeOwned;
 use std::collections::HashSet;
 use toml::de::{DeString, DeTable, DeValue, Error, ValueDeserializer};
 
 const KEYS: &str = "use one of `name`, `up`, `units`, `libraries`, `materials`, `geometry`, `group`, \
-                    `luminaire`, `camera`, `grid`";
+                    `luminaire`, `sky`, `camera`, `grid`";
 const LIBRARY_KEYS: &str = "use `[luminaires.NAME]`";
 /// Problems reported of one entry.
 const MOST_RETRIES: usize = 16;
@@ -34,12 +35,39 @@ pub(super) fn parse(text: &str, context: &mut Context) -> SceneFile {
                 file.groups = groups.into_iter().map(At::into_inner).collect();
             }
             "luminaire" => file.luminaires = list("luminaire", value, context),
+            "sky" => file.sky = sky(value, context),
             "camera" => file.cameras = list("camera", value, context),
             "grid" => file.grids = list("grid", value, context),
             other => unknown(other, key.span(), span, KEYS, context),
         }
     }
     file
+}
+
+const SKY: &str = "write `[sky]` and its keys below, once";
+
+fn sky(value: At<DeValue>, context: &mut Context) -> Option<At<SkyRecord>> {
+    let span = value.span();
+    is_table(&value, || SKY.to_owned(), context)
+        .then(|| entry(value, context))
+        .flatten()
+        .map(|record| At::new(span, record))
+}
+
+/// Reads the keys of a sky at the top of a text, or in its table `[sky]`.
+pub(super) fn parse_sky(text: &str, context: &mut Context) -> Option<SkyRecord> {
+    let entries = root(text, context);
+    if context.has_problems() {
+        return None;
+    }
+    let is_sky = |(key, value): &(At<DeString>, At<DeValue>)| {
+        key.get_ref() == "sky" && matches!(value.get_ref(), DeValue::Table(_))
+    };
+    if let Some(at) = entries.iter().position(is_sky) {
+        return entries.into_iter().nth(at).and_then(|(_, table)| entry(table, context));
+    }
+    let table: DeTable = entries.into_iter().collect();
+    entry(At::new(0..text.len(), DeValue::Table(table)), context)
 }
 
 /// Luminaires by name; an entry that could not be read keeps its name.

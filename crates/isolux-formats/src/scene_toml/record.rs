@@ -1,6 +1,7 @@
 //! The scene as written.
 
 use super::quantity::{Colour, LengthUnit, NonNegative, Number, Positive, Share, Triple};
+use super::sky_record::{LuminancesRecord, SkyRecord};
 use super::spans::At;
 use isolux::scene::{AreaShape, UpAxis};
 use serde::Deserialize;
@@ -17,6 +18,7 @@ pub(super) struct SceneFile {
     pub(super) geometry: Vec<At<GeometryRecord>>,
     pub(super) groups: Vec<GroupRecord>,
     pub(super) luminaires: Vec<At<LuminaireRecord>>,
+    pub(super) sky: Option<At<SkyRecord>>,
     pub(super) cameras: Vec<At<CameraRecord>>,
     pub(super) grids: Vec<At<GridRecord>>,
 }
@@ -185,6 +187,7 @@ pub(super) struct LuminaireRecord {
     pub(super) cosine: Option<At<CosineRecord>>,
     pub(super) spot: Option<At<SpotRecord>>,
     pub(super) directional: Option<At<DirectionalRecord>>,
+    pub(super) sky: Option<At<LuminancesRecord>>,
     pub(super) ies: Option<At<String>>,
     pub(super) ldt: Option<At<String>>,
     pub(super) lamp_set: Option<At<u32>>,
@@ -235,7 +238,7 @@ pub(super) struct LibraryRecord {
 }
 
 /// What a luminaire says of its light, here or in a library.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LightRecord<'a> {
     pub(super) isotropic: Option<&'a At<IsotropicRecord>>,
     pub(super) cosine: Option<&'a At<CosineRecord>>,
@@ -321,6 +324,8 @@ pub(super) struct SpotRecord {
 #[serde(deny_unknown_fields)]
 pub(super) struct DirectionalRecord {
     pub(super) illuminance_lx: NonNegative,
+    /// The full angle under which it is seen.
+    pub(super) angle_deg: Option<At<NonNegative>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -53,12 +53,13 @@ fn record<'a>(
                 ..bare
             }
         }
-        LuminaireKind::Directional { direction, illuminance_lx } => LuminaireRecord {
+        LuminaireKind::Directional { direction, illuminance_lx, .. } => LuminaireRecord {
             kind: "directional",
             direction: direction.to_vector().into(),
             illuminance_lx: Some(*illuminance_lx),
             ..bare
         },
+        LuminaireKind::Sky { .. } => LuminaireRecord { kind: "sky", ..bare },
     }
 }
 

@@ -124,7 +124,7 @@ fn directional() {
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let light = json!({"type": "directional", "intensity": 1000, "color": [1, 1, 1]});
     let found = luminaire(&with_light(light, json!({"rotation": [-half, 0, 0, half]})));
-    let LuminaireKind::Directional { direction, illuminance_lx } = found.kind else {
+    let LuminaireKind::Directional { direction, illuminance_lx, .. } = found.kind else {
         panic!("not directional")
     };
     assert_near(direction.to_vector(), [0.0, -1.0, 0.0]);

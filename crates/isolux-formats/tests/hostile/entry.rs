@@ -7,7 +7,7 @@ use isolux_formats::lint::audit;
 use isolux_formats::obj::Materials;
 use isolux_formats::photometric_file::{PhotometricFile, Target, convert};
 use isolux_formats::{
-    Loaded, Problems, Reach, cache_file, checkpoint, load, load_with, map_glb, picture,
+    Loaded, Problems, Reach, cache_file, checkpoint, epw, load, load_with, map_glb, picture,
 };
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -56,7 +56,7 @@ const fn entry(name: &'static str, read: fn(&Home, &[u8]) -> bool) -> Entry {
 }
 
 /// All of them.
-pub(crate) const ENTRIES: [Entry; 15] = [
+pub(crate) const ENTRIES: [Entry; 18] = [
     entry("gltf", |home, bytes| scene(load(&home.write("scene.gltf", bytes)))),
     Entry {
         seal: seal::container,
@@ -74,6 +74,9 @@ pub(crate) const ENTRIES: [Entry; 15] = [
     entry("rad", |home, bytes| scene(load(&home.write("scene.rad", bytes)))),
     entry("mitsuba", |home, bytes| scene(load(&home.write("scene.xml", bytes)))),
     entry("scene_toml", |home, bytes| scene(load(&home.write("scene.toml", bytes)))),
+    entry("epw", |home, bytes| weather(&home.write("place.epw", bytes))),
+    entry("hdr", |home, bytes| below(home, "sky.hdr", bytes)),
+    entry("exr", |home, bytes| below(home, "sky.exr", bytes)),
     entry("picture", |home, bytes| picture::read(&home.write("picture.png", bytes)).is_ok()),
     Entry { seal: seal::map, ..entry("map", map) },
     Entry {
@@ -121,6 +124,29 @@ fn lamp(path: &Path, bytes: &[u8]) -> bool {
     };
     drop(convert(file, target));
     true
+}
+
+/// What is read has light at the times that it has hours of.
+fn weather(path: &Path) -> bool {
+    let Ok(Loaded { value, .. }) = epw::read(path) else { return false };
+    for hour in &value.hours {
+        let at = value.at(hour.month, hour.day, f64::from(hour.hour) - 0.75);
+        let is_light = |w: f64| w >= 0.0 && w.is_finite();
+        assert!(at.is_none_or(
+            |at| is_light(at.direct_normal_w_m2) && is_light(at.diffuse_horizontal_w_m2)
+        ));
+    }
+    true
+}
+
+/// A scene below a picture.
+fn below(home: &Home, name: &str, bytes: &[u8]) -> bool {
+    home.write(name, bytes);
+    let text = format!(
+        "[materials.a]\ndiffuse = 0.5\n[[geometry]]\nrectangle = {{ corner = [0, 0, 0], u = [1, 0, 0], v = [0, 1, 0] }}\nmaterial = \"a\"\n\
+         [sky]\npicture = \"{name}\"\nluminance_factor = 1\n"
+    );
+    scene(load(&home.write("below.toml", text.as_bytes())))
 }
 
 fn map(home: &Home, bytes: &[u8]) -> bool {

@@ -6,6 +6,7 @@ use isolux::geometry::{Direction, Point};
 use isolux::units::Rgb;
 use isolux_formats::cache_file::CacheFile;
 use isolux_formats::checkpoint::{self, Checkpoint};
+use isolux_formats::luminance::{Luminances, encode_exr, encode_radiance};
 use isolux_formats::map_glb::{self, Preview};
 use std::path::{Path, PathBuf};
 
@@ -71,6 +72,9 @@ fn written(entry: &str) -> Option<Vec<u8>> {
     let path = home.path().join("seed");
     match entry {
         "map" => return Some(map()),
+        "epw" => return Some(weather()),
+        "hdr" => return encode_radiance(&surroundings()).ok(),
+        "exr" => return encode_exr(&surroundings()).ok(),
         "checkpoint" => checkpoint::write(&path, &run()).unwrap(),
         "cache" => {
             let (mut file, _) = CacheFile::open(&path, ("room", "abcd"), 1 << 20).unwrap();
@@ -80,6 +84,26 @@ fn written(entry: &str) -> Option<Vec<u8>> {
         _ => return None,
     }
     Some(std::fs::read(path).unwrap())
+}
+
+const PIXELS: [[f32; 3]; 128] = [[0.5, 2.0, 1e4]; 128];
+
+fn surroundings() -> Luminances<'static> {
+    Luminances { width: 16, height: 8, rgb_cd_m2: &PIXELS }
+}
+
+/// Two days of hours.
+fn weather() -> Vec<u8> {
+    let mut text = String::from(
+        "LOCATION,Berlin,-,DEU,Test,103840,52.47,13.40,1.0,49.0\nCOMMENTS 1,none\nDATA PERIODS,1,1,Data,Sunday,6/21,6/22\n",
+    );
+    for hour in 0..48 {
+        let (day, of_day) = (21 + hour / 24, 1 + hour % 24);
+        text += &format!(
+            "2001,6,{day},{of_day},0,?9,20,11,50,101325,0,0,300,600,500,100,9e4,8e4,999999,0\n"
+        );
+    }
+    text.into_bytes()
 }
 
 fn map() -> Vec<u8> {

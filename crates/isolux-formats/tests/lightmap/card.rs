@@ -31,7 +31,11 @@ pub(crate) fn scene() -> Scene {
     let shapes =
         vec![quad("card", 1.0, 0.0, 0), quad("table", 2.0, -1.0, 1), quad("mirror", 1.0, 2.0, 2)];
     // Its light is in the map already: a file with the light beside the lightmap would show it twice.
-    let sun = LuminaireKind::Directional { direction: Direction::Z, illuminance_lx: 500.0 };
+    let sun = LuminaireKind::Directional {
+        direction: Direction::Z,
+        illuminance_lx: 500.0,
+        half_angle_rad: 0.0,
+    };
     let luminaires =
         vec![Luminaire { name: "sun".into(), group: 0, colour: Rgb::WHITE, kind: sun }];
     let groups = vec!["general".into()];

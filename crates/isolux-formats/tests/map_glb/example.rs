@@ -124,6 +124,7 @@ fn luminaires() -> Vec<Luminaire> {
     let sun = LuminaireKind::Directional {
         direction: Vector::new(0.3, 0.1, -0.9).direction().unwrap(),
         illuminance_lx: 80_000.0,
+        half_angle_rad: 0.0,
     };
     vec![
         point(0, IntensityDistribution::Web(web.clone())),

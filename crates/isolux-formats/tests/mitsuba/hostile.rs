@@ -72,12 +72,12 @@ const REFUSED: &[(&str, &str)] = &[
         "<shape type='cube'><transform name='to_world'><lookat origin='0 0 0' target='0 1 0' up='0 1 0'/></transform></shape>",
         "lie on a line",
     ),
+    ("<emitter type='sunsky'/><shape type='cube'/>", "`sunsky` is not read"),
     (
-        "<emitter type='constant'/><emitter type='directional'/><shape type='cube'/>",
-        "`constant` is not read beside directional light",
+        "<emitter type='constant'/><emitter type='constant'/>",
+        "`constant` is the second that surrounds",
     ),
-    ("<emitter type='constant'/><emitter type='constant'/>", "`constant` is there twice"),
-    ("<emitter type='envmap'/>", "emitter `envmap` is not read"),
+    ("<emitter type='envmap'/>", "emitter `envmap` names no file"),
     (
         "<emitter type='spot'><float name='cutoff_angle' value='190'/></emitter>",
         "give angles from the axis",

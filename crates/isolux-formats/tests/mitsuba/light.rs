@@ -37,7 +37,8 @@ fn luminaires_shine_as_mitsubas_do() {
     }
     // Light of equal energy is reddish beside the white of Rec. 709, of the same luminance.
     near(parts.luminaires[1].colour.0[0], 1.2048, 1e-3);
-    let LuminaireKind::Directional { direction, illuminance_lx } = &parts.luminaires[2].kind else {
+    let LuminaireKind::Directional { direction, illuminance_lx, .. } = &parts.luminaires[2].kind
+    else {
         panic!()
     };
     assert_eq!((direction.to_vector().y, *illuminance_lx), (-1.0, 537.0));
@@ -59,15 +60,54 @@ fn round_lights_keep_their_flux() {
 }
 
 #[test]
-fn a_sky_of_one_luminance_is_a_box_around_the_scene() {
+fn a_sky_of_one_luminance_shines_from_everywhere() {
     let parts = read(&format!(
         "{RECTANGLE}<emitter type='constant'><rgb name='radiance' value='1 2 3'/></emitter>"
     ));
-    let sky = parts.shapes.last().unwrap();
-    assert_eq!((sky.name.as_str(), sky.triangles.len()), ("constant emitter", 12));
-    let material = &parts.materials[sky.material as usize];
-    assert_eq!(material.finish(false).unwrap().luminance_cd_m2, Rgb::new(1.0, 2.0, 3.0) * 179.0);
-    assert_eq!(*material.finish(true).unwrap(), Finish::BLACK);
+    let sky = parts.luminaires.last().unwrap();
+    let LuminaireKind::Sky { sky: light, .. } = &sky.kind else { panic!() };
+    let due = Rgb::new(1.0, 2.0, 3.0) * 179.0;
+    for towards in [Direction::Z, -Direction::Z, Direction::X] {
+        let found = sky.colour * light.luminance_cd_m2(towards).luminance();
+        found.0.iter().zip(due.0).for_each(|(a, b)| near(*a, b, 1e-12));
+    }
+}
+
+/// The left border is at -z, a quarter further is +x; turned by a right angle about y, the border is at -x.
+#[test]
+fn pictures_surround_the_scene() {
+    let mut rgb = vec![[0.0_f32; 3]; 8];
+    // Above the horizon, from the border on, and below it, from the middle on.
+    (rgb[0], rgb[6]) = ([1.0; 3], [2.0; 3]);
+    let picture = isolux_formats::luminance::Luminances { width: 4, height: 2, rgb_cd_m2: &rgb };
+    let home = tempfile::tempdir().unwrap();
+    let bytes = isolux_formats::luminance::encode_exr(&picture).unwrap();
+    std::fs::write(home.path().join("sky.exr"), bytes).unwrap();
+    let seen = |to_world: &str, towards: [f64; 3]| {
+        let text = format!(
+            "<scene version='3.0.0'>{RECTANGLE}<emitter type='envmap'><string name='filename' value='sky.exr'/>\
+             <float name='scale' value='2'/><transform name='to_world'>{to_world}</transform></emitter></scene>"
+        );
+        let path = home.path().join("scene.xml");
+        std::fs::write(&path, text).unwrap();
+        let mut parts = isolux_formats::mitsuba::read(&path).unwrap().value;
+        let LuminaireKind::Sky { world_from_sky, sky } = parts.luminaires.remove(0).kind else {
+            panic!()
+        };
+        let sky_from_world = world_from_sky.inverse().unwrap();
+        let towards = sky_from_world.vector(Vector::from(towards)).direction().unwrap();
+        sky.luminance_cd_m2(towards).luminance() / 179.0
+    };
+    for (to_world, towards, due) in [
+        ("", [0.1, 0.5, -1.0], 2.0),
+        ("", [-0.1, 0.5, -1.0], 0.0),
+        ("", [-0.1, -0.5, 1.0], 4.0),
+        ("<rotate y='1' angle='90'/>", [-1.0, 0.5, -0.1], 2.0),
+        ("<rotate y='1' angle='90'/>", [-1.0, 0.5, 0.1], 0.0),
+    ] {
+        // Pixels are in single precision.
+        near(seen(to_world, towards), due, 1e-6);
+    }
 }
 
 /// Mitsuba's own Cornell box has its lamp so: it was refused.

@@ -9,7 +9,7 @@ mod shapes;
 #[path = "../spoil/mod.rs"]
 mod spoil;
 
-use isolux::geometry::Vector;
+use isolux::geometry::{Direction, Vector};
 use isolux::scene::{Body, Finish, LuminaireKind, Scene, SceneParts, Shape, UpAxis};
 use isolux::units::Rgb;
 use isolux_formats::{Loaded, Problems, load, mitsuba, scene_toml};

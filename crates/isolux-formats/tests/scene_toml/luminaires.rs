@@ -137,7 +137,8 @@ fn arrays_count_x_first() {
 fn directional_light() {
     let sun =
         parts("directional = { illuminance_lx = 1000 }\ndirection = [0, 0, -3]\ndimming = 0.5");
-    let LuminaireKind::Directional { direction, illuminance_lx } = sun.luminaires[0].kind else {
+    let LuminaireKind::Directional { direction, illuminance_lx, .. } = sun.luminaires[0].kind
+    else {
         panic!("directional")
     };
     assert_eq!((direction, illuminance_lx), (-Direction::Z, 500.0));

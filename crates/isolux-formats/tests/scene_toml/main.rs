@@ -10,6 +10,7 @@ mod imports;
 mod luminaires;
 mod materials;
 mod problems;
+mod sky;
 
 use isolux::geometry::{Triangle, Vector};
 use isolux::scene::{Scene, SceneParts};

@@ -15,6 +15,7 @@ from os import PathLike
 from typing import Any
 
 from isolux import parts
+from isolux._arguments import checked
 from isolux._builder import Luminaire
 from isolux._call import Path, command
 from isolux._errors import Defect, Error, InputError, IsoluxWarning, Problem, RefusedError
@@ -55,6 +56,7 @@ __all__ = [
 ]
 
 
+@checked
 def check(scene: Path | Scene) -> Any:
     """Audit a scene before a run: the object that ``isolux check --json`` prints, with its ``findings``."""
     if isinstance(scene, (str, PathLike)):
@@ -62,16 +64,25 @@ def check(scene: Path | Scene) -> Any:
     return as_scene(scene).check()
 
 
+@checked
 def info(path: Path) -> Any:
-    """What a map, a scene or a photometric file holds: the object that ``isolux info --json`` prints."""
+    """What a map, a scene, a photometric file or a part of a run holds: the object that ``isolux info --json`` prints."""
     return command("info", "--", path)
 
 
+@checked
 def lint(*files: Path) -> Any:
     """Audit photometric files (.ies, .ldt): what ``isolux lint --json`` prints. Findings are a result, not an exception."""
     return command("lint", "--", *files)
 
 
+@checked
 def validate(*flags: str) -> Any:
     """Run the cases with exact answers, some minutes: what ``isolux validate FLAGS --json`` prints."""
     return command("validate", *flags)
+
+
+def __dir__() -> list[str]:
+    """Public names alone, with the modules that are imported."""
+    further = ("cluster", "interchange", "plots", "study")
+    return sorted([*__all__, "__version__", *(name for name in further if name in globals())])

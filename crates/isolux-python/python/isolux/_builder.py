@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from isolux._errors import wrong
+from isolux._arguments import Point, checked, misfit
+from isolux._errors import public, wrong
+from isolux._readings import numbers
+from isolux._written import Written
 
 
+@public
 class Luminaire:
     """A luminaire of a scene that is made of arrays.
 
@@ -26,23 +30,28 @@ class Luminaire:
     ``colour``, ``cct_k``, ``luminous_area``, ``array``, ...
     """
 
+    @checked
     def __init__(
         self,
         file: str | os.PathLike[str] | None = None,
         *,
-        position: Sequence[float] | None = None,
-        aim: Sequence[float] | None = None,
+        position: Point | None = None,
+        aim: Point | None = None,
         **keys: Any,
     ) -> None:
         self.keys: dict[str, Any] = dict(keys)
+        #: What arguments keys were, where that is another name.
+        self._names: dict[str, str] = {}
         if file is not None:
             path = Path(file).absolute()
             kind = "ldt" if path.suffix.lower() == ".ldt" else "ies"
             self.keys[kind] = path.as_posix()
+            self._names[kind] = ".file"
         if position is not None:
             self.keys["position"] = position
         if aim is not None:
             self.keys["target"] = aim
+            self._names["target"] = ".aim"
 
     def __repr__(self) -> str:
         return f"Luminaire({', '.join(f'{key}={value!r}' for key, value in self.keys.items())})"
@@ -62,44 +71,72 @@ def write(
     grids: Sequence[Mapping[str, Any]],
     name: str,
     up: str,
-) -> Path:
-    """Write the files of a scene; where its ``scene.toml`` is."""
+) -> Written:
+    """Write the files of a scene."""
     points, corners = _mesh(vertices, triangles)
     known = _materials(materials)
     chosen = _chosen(triangle_materials, list(known), len(corners))
-    lines = [f"name = {_toml(name)}", f"up = {_toml(up)}"]
-    for material, keys in known.items():
-        lines += [f"[materials.{json.dumps(material)}]", *_keys(keys)]
-    for number, material in enumerate(known):
+    written = Written(folder, "from_arrays")
+    written.table("# A scene of arrays.", {"name": name, "up": up}, "", {"name": "name", "up": "up"})
+    for number, (material, (keys, place, names)) in enumerate(known.items()):
+        written.table(f"[materials.{json.dumps(material)}]", keys, place, names)
         own = corners[chosen == number]
         if len(own):
-            file = f"{number}.ply"
-            _write_ply(folder / file, points, own)
+            of = f"triangles of {material!r}"
+            file = written.beside(f"{number}.ply", of)
+            _write_ply(file, points, own)
             # Coordinates are the scene's own: they are not turned.
-            keys = {"name": material, "file": file, "material": material, "up": up}
-            lines += ["[[geometry]]", *_keys(keys)]
-    if isinstance(luminaires, (Luminaire, Mapping)):
-        luminaires = [luminaires]
-    for luminaire in luminaires:
-        keys = luminaire.keys if isinstance(luminaire, Luminaire) else luminaire
-        if not isinstance(keys, Mapping):
-            raise wrong(f"luminaires hold {keys!r}; give isolux.Luminaire(...) or dicts")
-        lines += ["[[luminaire]]", *_keys(keys)]
-    for table, rows in (("camera", cameras), ("grid", grids)):
-        for row in rows:
-            lines += [f"[[{table}]]", *_keys(row)]
-    path = folder / "scene.toml"
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return path
+            keys = {"name": material, "file": file.name, "material": material, "up": up}
+            written.table("[[geometry]]", keys, of, dict.fromkeys(keys, ""))
+    for place, keys, names in _luminaires(luminaires):
+        written.table("[[luminaire]]", keys, place, names)
+    for argument, table, rows in (("cameras", "camera", cameras), ("grids", "grid", grids)):
+        for place, row in _rows(argument, rows):
+            written.table(f"[[{table}]]", row, place)
+    written.save()
+    return written
+
+
+def _luminaires(
+    luminaires: Luminaire | Sequence[Luminaire | Mapping[str, Any]],
+) -> Iterator[tuple[str, Mapping[str, Any], Mapping[str, str]]]:
+    """Where each stands among the arguments, its keys, and what arguments the keys were."""
+    is_one = isinstance(luminaires, (Luminaire, Mapping))
+    several = [luminaires] if is_one else luminaires
+    if not isinstance(several, Iterable):
+        raise misfit("luminaires", luminaires, "isolux.Luminaire(...) or dicts in a list")
+    for number, luminaire in enumerate(several):
+        place = "luminaires" if is_one else f"luminaires[{number}]"
+        if isinstance(luminaire, Luminaire):
+            yield place, luminaire.keys, luminaire._names
+        elif isinstance(luminaire, Mapping):
+            yield place, luminaire, {}
+        else:
+            raise wrong(f"luminaires hold {luminaire!r}; give isolux.Luminaire(...) or dicts")
+
+
+def _rows(argument: str, rows: Any) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    if not isinstance(rows, Sequence):
+        raise misfit(argument, rows, "a list of dicts")
+    for number, row in enumerate(rows):
+        if not isinstance(row, Mapping):
+            raise misfit(f"{argument}[{number}]", row, "a dict")
+        yield f"{argument}[{number}]", row
 
 
 def _mesh(
     vertices: npt.ArrayLike, triangles: npt.ArrayLike
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
-    points = np.asarray(vertices, dtype=np.float64)
-    corners = np.asarray(triangles)
+    points = numbers("vertices", vertices, "(n, 3)")
+    try:
+        corners = np.asarray(triangles)
+    except ValueError:
+        raise misfit("triangles", triangles, "(m, 3) integers") from None
     if points.ndim != 2 or points.shape[1] != 3:
         raise wrong(f"vertices have the shape {points.shape}; give (n, 3), in metres")
+    endless = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if len(endless):
+        raise wrong(f"vertices[{endless[0]}] is not finite; give finite numbers, in metres")
     if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
         raise wrong(
             f"triangles have the shape {corners.shape} of {corners.dtype}; give (m, 3) integers"
@@ -112,12 +149,23 @@ def _mesh(
     return points, corners
 
 
-def _materials(materials: Material | Mapping[str, Material]) -> dict[str, Mapping[str, Any]]:
+#: The keys of a material, the argument that it comes from, and what arguments the keys were.
+_Keys = tuple[Mapping[str, Any], str, Mapping[str, str]]
+
+
+def _materials(materials: Material | Mapping[str, Material]) -> dict[str, _Keys]:
     if not isinstance(materials, Mapping):
-        return {"surface": {"diffuse": materials}}
-    return {
-        name: of if isinstance(of, Mapping) else {"diffuse": of} for name, of in materials.items()
-    }
+        return {"surface": _material(materials, "materials")}
+    for name in materials:
+        if not isinstance(name, str):
+            raise misfit("a name in materials", name, "text")
+    return {name: _material(of, f"materials[{name!r}]") for name, of in materials.items()}
+
+
+def _material(of: Material, place: str) -> _Keys:
+    if isinstance(of, Mapping):
+        return of, place, {}
+    return {"diffuse": of}, place, {"diffuse": ""}
 
 
 def _chosen(
@@ -129,7 +177,10 @@ def _chosen(
         if len(names) > 1:
             raise wrong("triangle_materials are missing; there are several materials")
         return np.zeros(count, dtype=np.int64)
-    chosen = np.asarray(of_triangles)
+    try:
+        chosen = np.asarray(of_triangles)
+    except ValueError:
+        raise misfit("triangle_materials", of_triangles, f"({count},) names or integers") from None
     if chosen.shape != (count,):
         raise wrong(f"triangle_materials have the shape {chosen.shape}; give ({count},)")
     if chosen.dtype.kind in "iu":
@@ -156,22 +207,3 @@ def _write_ply(path: Path, points: npt.NDArray[np.float64], corners: npt.NDArray
     faces["count"] = 3
     faces["corners"] = own.reshape(-1, 3)
     path.write_bytes(head.encode() + points[used].astype("<f8").tobytes() + faces.tobytes())
-
-
-def _keys(table: Mapping[str, Any]) -> list[str]:
-    return [f"{key} = {_toml(value)}" for key, value in table.items()]
-
-
-def _toml(value: Any) -> str:
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, (str, os.PathLike)):
-        # A string of JSON is one of TOML.
-        return json.dumps(os.fspath(value), ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{json.dumps(k)} = {_toml(v)}" for k, v in value.items()) + " }"
-    return "[" + ", ".join(_toml(part) for part in value) + "]"

@@ -9,7 +9,10 @@ import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+
 from isolux import _native
+from isolux._arguments import checked
 from isolux._errors import IsoluxWarning
 
 Path = str | os.PathLike[str]
@@ -20,6 +23,9 @@ Increment = Callable[[bytes | None, bytes | None, int, int], bytes | None]
 
 _LOG = logging.getLogger("isolux")
 
+#: The exit code of a subcommand that was ended by Ctrl-C.
+_INTERRUPTED = 130
+
 
 class Call:
     """Hears what a call tells, and keeps what it makes."""
@@ -28,6 +34,7 @@ class Call:
         self,
         progress: Callable[[str], object] | None = None,
         increment: Increment | None = None,
+        told: Callable[[str], str] | None = None,
     ) -> None:
         self.report: Any = None
         self.warnings: list[str] = []
@@ -37,6 +44,7 @@ class Call:
         self.exit_code = 0
         self._progress = progress
         self._increment = increment
+        self._told = told or str
 
     def __call__(self, kind: str, told: Any) -> object:
         if kind == "progress":
@@ -49,10 +57,12 @@ class Call:
             self.maps.append((os.fspath(told[0]), told[1]))
         elif kind in ("picture", "luminances"):
             self.image = told
+        elif kind == "text":
+            self.report = told
         elif kind == "note":
-            self.notes.append(told)
+            self.notes.append(self._told(told))
         else:
-            self.warnings.append(told)
+            self.warnings.append(self._told(told))
         return None
 
     def run(
@@ -67,7 +77,12 @@ class Call:
             self.exit_code = _native.run(list(words), list(given), self, waits, makes)
         finally:
             self.pass_on()
+        if self.exit_code == _INTERRUPTED and not self._has_result():
+            raise KeyboardInterrupt
         return self
+
+    def _has_result(self) -> bool:
+        return bool(self.maps) or self.report is not None or self.image is not None
 
     def pass_on(self) -> None:
         """Give warnings to ``warnings``, and notes to ``logging``."""
@@ -92,18 +107,23 @@ def words(**flags: Any) -> list[str]:
     found: list[str] = []
     for name, value in flags.items():
         flag = "--" + name.strip("_").replace("_", "-")
+        if isinstance(value, np.bool_):
+            value = bool(value)
         if value is None or value is False:
             continue
         if value is True:
             found.append(flag)
         elif isinstance(value, (list, tuple)) or (hasattr(value, "ndim") and value.ndim > 0):
-            found += [flag, ",".join(_number(part) for part in value)]
+            found += [flag, ",".join(word(part) for part in value)]
         else:
-            found += [flag, _number(value)]
+            found += [flag, word(value)]
     return found
 
 
-def _number(value: Any) -> str:
+def word(value: Any) -> str:
+    """A value as the command has it."""
+    if isinstance(value, os.PathLike):
+        return str(os.fspath(value))
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
@@ -112,11 +132,13 @@ def with_unit(value: float | str | None, unit: str) -> str | None:
     return value if value is None or isinstance(value, str) else f"{float(value)!r}{unit}"
 
 
-def command(*arguments: str | os.PathLike[str]) -> Any:
+@checked
+def command(*arguments: Path) -> Any:
     """Run a subcommand in this process and return what it prints with ``--json``.
 
-    ``isolux.command("info", "lamp.ies")`` is ``isolux info lamp.ies --json`` as Python objects. Every subcommand works but
-    ``view``, which serves until it is stopped. The keys are in the book of isolux, under JSON. Results that are negative are results:
-    ``lint`` of a bad file returns its findings. Warnings are ``IsoluxWarning``; failures are ``InputError`` and ``RefusedError``.
+    ``isolux.command("info", "lamp.ies")`` is ``isolux info lamp.ies --json`` as Python objects; ``--help`` and ``--version`` are text. Every
+    subcommand works but ``view``, and ``solve --live``, which serve until they are stopped. The keys are in the book of isolux, under JSON.
+    Results that are negative are results: ``lint`` of a bad file returns its findings. Warnings are ``IsoluxWarning``; failures are
+    ``InputError`` and ``RefusedError``.
     """
     return Call().run([os.fspath(argument) for argument in arguments]).report

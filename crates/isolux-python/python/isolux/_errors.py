@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
+
+T = TypeVar("T")
 
 
+def public(kind: type[T]) -> type[T]:
+    """The class, by the name that programs know it by."""
+    kind.__module__ = "isolux"
+    return kind
+
+
+@public
 class Problem(NamedTuple):
     """One problem: all of it in one line, and its parts where they are known."""
 
     message: str
     file: str | None
     place: str | None
+    #: What you can do.
     remedy: str | None
 
 
+@public
 class Error(Exception):
     """What keeps isolux from a result. ``problems`` has all that was found, the first included."""
 
@@ -27,19 +38,23 @@ class Error(Exception):
         return error
 
 
+@public
 class InputError(Error, ValueError):
     """An input that you can mend: a file, a scene, an argument."""
 
 
 def wrong(text: str) -> Error:
-    """An argument that is wrong, and how it is right."""
-    return InputError._of([(text, None, None, None)])
+    """An argument that is wrong, and behind a semicolon how it is right."""
+    _, _, remedy = text.rpartition("; ")
+    return InputError._of([(text, None, None, remedy if remedy != text else None)])
 
 
+@public
 class RefusedError(Error, OSError):
     """What the machine cannot do: memory, space on a disk."""
 
 
+@public
 class Defect(Error, RuntimeError):
     """A defect of isolux itself."""
 
@@ -51,5 +66,6 @@ class Defect(Error, RuntimeError):
         return error
 
 
+@public
 class IsoluxWarning(UserWarning):
     """What was left out or guessed: in a file that was read, or by a run."""

@@ -7,9 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from isolux._errors import public
 from isolux._readings import READING, Array, Readings
 
 
+@public
 class Figure(NamedTuple):
     """A figure with its interval of 95 %."""
 
@@ -18,6 +20,7 @@ class Figure(NamedTuple):
     high: float
 
 
+@public
 @dataclass(frozen=True)
 class Grid:
     """The illuminance on a calculation grid, as ``isolux grid`` tells it: maintained, if there is a maintenance factor.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 import os
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -13,8 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from isolux import _native
-from isolux._call import Call, Path, with_unit, words
-from isolux._errors import wrong
+from isolux._arguments import Point, at_least, checked, misfit
+from isolux._call import Call, Path, with_unit, word, words
+from isolux._errors import public, wrong
 from isolux._grid import Grid, grid
 from isolux._readings import Array, Readings, fixed, places, readings
 from isolux._scene import Scene
@@ -23,6 +25,7 @@ from isolux._view import FINER_S, HEIGHT, View
 Given = list[tuple[str, _native.Scene | _native.Map]]
 
 
+@public
 class Map:
     """An illumination map: the illuminance on every surface of a scene, with its standard error. It does not change.
 
@@ -109,6 +112,7 @@ class Map:
         found.setflags(write=False)
         return found
 
+    @checked
     def probe(
         self,
         points: npt.ArrayLike,
@@ -132,14 +136,15 @@ class Map:
         call.pass_on()
         return readings(rows)
 
+    @checked
     def grid(
         self,
         name: str | None = None,
         *,
         height: float | None = None,
-        corner: Sequence[float] | None = None,
-        u: Sequence[float] | None = None,
-        v: Sequence[float] | None = None,
+        corner: Point | None = None,
+        u: Point | None = None,
+        v: Point | None = None,
         spacing: float | None = None,
         border: float | None = None,
         maintenance_factor: float | None = None,
@@ -171,18 +176,20 @@ class Map:
         )
         return grid(self._run("grid", flags).report["grids"][0])
 
+    @checked
     def grids(self, *, maintenance_factor: float | None = None) -> list[Grid]:
         """The illuminance on all calculation grids of the scene; see :meth:`grid`."""
         flags = words(maintenance_factor=maintenance_factor)
         return [grid(report) for report in self._run("grid", flags).report["grids"]]
 
+    @checked
     def render(
         self,
         camera: str | None = None,
         *,
-        eye: Sequence[float] | None = None,
-        target: Sequence[float] | None = None,
-        up: Sequence[float] | None = None,
+        eye: Point | None = None,
+        target: Point | None = None,
+        up: Point | None = None,
         fov: float | None = None,
         panorama: bool = False,
         width: int = 1280,
@@ -215,6 +222,7 @@ class Map:
         """
         if luminance and false_colour:
             raise wrong("luminance and false_colour exclude each other; leave one out")
+        at_least(1, width=width, height=height)
         flags = words(
             camera=camera,
             eye=eye,
@@ -224,7 +232,7 @@ class Map:
             panorama=panorama,
             size=f"{width}x{height}",
             false_colour=false_colour,
-            limits=f"{limits[0]}:{limits[1]}" if limits else None,
+            limits=None if limits is None else ":".join(map(word, limits)),
             logarithmic=logarithmic,
             contours=contours,
             exposure=exposure,
@@ -239,6 +247,7 @@ class Map:
             image: npt.NDArray[Any] = self._run("render", [*flags, "-o", file]).image
         return image
 
+    @checked
     def audit(
         self, *, places: int | None = None, paths: int | None = None, seed: int | None = None
     ) -> Any:
@@ -253,6 +262,7 @@ class Map:
         """What the map holds: the object that ``isolux info --json`` prints, with its ``provenance``."""
         return self._run("info").report
 
+    @checked
     def mix(self, dim: Mapping[str, float]) -> Map:
         """The same with groups of luminaires dimmed, without a new run: ``m.mix({"spots": 0.3, "daylight": 0})``.
 
@@ -260,6 +270,7 @@ class Map:
         """
         return mix(list(self.groups.values()) or self, dim=dim)
 
+    @checked
     def export(
         self,
         path: Path,
@@ -297,6 +308,7 @@ class Map:
         )
         return self._run("export", [*flags, "-o", os.fspath(path)]).report
 
+    @checked
     def view(self, *, height: int = HEIGHT, live: bool = True, finer: float = FINER_S) -> View:
         """Walk through the map in a notebook; a map that ends a cell does so by itself.
 
@@ -304,11 +316,13 @@ class Map:
         is. ``live=False`` keeps the page in the notebook and in what nbconvert makes of it, a megabyte or more. ``finer``: seconds to
         look for finer shadows.
         """
+        at_least(1, height=height)
         return View(self, height, live, finer)
 
     def _repr_mimebundle_(self, **_: object) -> tuple[dict[str, Any], dict[str, Any]]:
         return self.view()._repr_mimebundle_()
 
+    @checked
     def save(self, path: Path) -> None:
         """Write the map file (.glb): the same bytes as ``isolux solve`` writes. It is a picture for every viewer of glTF, too.
 
@@ -340,6 +354,7 @@ class Map:
         return f"<isolux.Map of {self.receivers} receivers, error {error}>"
 
 
+@checked
 def open_map(path: Path) -> Map:
     """Read a map file (.glb) that ``solve``, ``mix`` or the command has written."""
     call = Call()
@@ -356,6 +371,7 @@ def _from_bytes(data: bytes, name: str) -> Map:
         return Map(_native.Map.read(path, Call()), name)
 
 
+@checked
 def mix(
     maps: Map | Path | Sequence[Map | Path] | Mapping[Path, float],
     *,
@@ -367,21 +383,38 @@ def mix(
     factor on the luminaires of a group, ``{"spots": 0.3}``, 0 for off.
     """
     if isinstance(maps, Mapping):
-        parts: list[tuple[Map | Path, float]] = list(maps.items())
+        parts: list[tuple[Map | Path, str]] = list(_shares("maps", maps).items())
     elif isinstance(maps, (Map, str, os.PathLike)):
-        parts = [(maps, 1.0)]
+        parts = [(maps, "1")]
     else:
-        parts = [(part, 1.0) for part in maps]
+        parts = [(part, "1") for part in _several(maps)]
     given: Given = []
-    flags = [word for group, by in (dim or {}).items() for word in ("--dim", f"{group}={by!r}")]
+    dimmed = {} if dim is None else _shares("dim", dim)
+    flags = [part for group, by in dimmed.items() for part in ("--dim", f"{group}={by}")]
     names = []
     for number, (part, dimming) in enumerate(parts):
         name = os.fspath(part) if not isinstance(part, Map) else part._name
         if isinstance(part, Map):
             name = name if os.path.exists(name) else f"map {number + 1}"
             given.append((name, part._native))
-        names.append(f"{name}={dimming!r}")
+        names.append(f"{name}={dimming}")
     with tempfile.TemporaryDirectory(prefix="isolux-") as folder:
         output = os.path.join(folder, "mixed.glb")
         call = Call().run(["mix", *flags, "-o", output, "--", *names], given)
     return Map(call.maps[-1][1], "mixed.glb", call)
+
+
+def _several(maps: Any) -> Sequence[Map | Path]:
+    if isinstance(maps, Sequence) and all(isinstance(m, (Map, str, os.PathLike)) for m in maps):
+        return maps
+    raise misfit("maps", maps, "maps or paths of maps, in a list or as keys of a dict")
+
+
+def _shares(argument: str, shares: Any) -> dict[Any, str]:
+    """What light is multiplied by, in the words of the command."""
+    if not isinstance(shares, Mapping):
+        raise misfit(argument, shares, 'a dict, as {"spots": 0.3}')
+    for name, by in shares.items():
+        if isinstance(by, bool) or not isinstance(by, (str, numbers.Real)):
+            raise misfit(f"{argument}[{name!r}]", by, 'a number or text, as 0.3 or "30%"')
+    return {name: word(by) for name, by in shares.items()}

@@ -10,11 +10,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from isolux._errors import public
+
 _EVERY_S = 0.1
 _LINE_EVERY_S = 2.0
 _BAR = 24
 
 
+@public
 @dataclass(frozen=True)
 class Progress:
     """The state of a run at one of its increments. What is not known yet is ``None``."""

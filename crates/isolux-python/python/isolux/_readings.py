@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from isolux._errors import wrong
+from isolux._arguments import misfit
+from isolux._errors import public, wrong
 
 if TYPE_CHECKING:
     import pandas as _pandas
@@ -30,6 +31,7 @@ READING = np.dtype(
 )
 
 
+@public
 class Readings(np.ndarray[Any, Any]):
     """A structured array of :data:`READING`. Its fields are arrays: ``readings["illuminance_lx"]``."""
 
@@ -53,8 +55,8 @@ def readings(rows: Array) -> Readings:
 
 def places(points: npt.ArrayLike, normals: npt.ArrayLike) -> Array:
     """Points with their normals as rows of six."""
-    at = np.atleast_2d(np.asarray(points, dtype=np.float64))
-    facing = np.asarray(normals, dtype=np.float64)
+    at = np.atleast_2d(numbers("points", points, "(n, 3) or (3,)"))
+    facing = numbers("normals", normals, f"one for all, (3,), or {at.shape}")
     if at.ndim != 2 or at.shape[1] != 3:
         raise wrong(f"points have the shape {at.shape}; give (n, 3) or (3,)")
     try:
@@ -64,6 +66,14 @@ def places(points: npt.ArrayLike, normals: npt.ArrayLike) -> Array:
             f"normals have the shape {facing.shape}; give one for all, (3,), or {at.shape}"
         ) from None
     return np.ascontiguousarray(np.concatenate([at, facing], axis=1))
+
+
+def numbers(name: str, values: npt.ArrayLike, give: str) -> Array:
+    """An argument as an array of numbers."""
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise misfit(name, values, f"{give} numbers") from None
 
 
 def fixed(array: npt.NDArray[Any]) -> npt.NDArray[Any]:

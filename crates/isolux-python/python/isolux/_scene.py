@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path as FilePath
 from typing import Any
@@ -13,12 +13,14 @@ import numpy as np
 import numpy.typing as npt
 
 from isolux import _builder, _native
+from isolux._arguments import at_least, checked
 from isolux._builder import Luminaire, Material
 from isolux._call import Call, Path
-from isolux._errors import wrong
+from isolux._errors import InputError, public, wrong
 from isolux._readings import Array, Readings, fixed, places, readings
 
 
+@public
 class Scene:
     """A scene: surfaces, materials, luminaires. It does not change.
 
@@ -32,6 +34,7 @@ class Scene:
         self.warnings: list[str] = list(warnings)
 
     @classmethod
+    @checked
     def from_arrays(
         cls,
         vertices: npt.ArrayLike,
@@ -55,7 +58,7 @@ class Scene:
         ``[[camera]]`` and ``[[grid]]``. ``up``: ``"y"`` or ``"z"``.
         """
         with tempfile.TemporaryDirectory(prefix="isolux-") as folder:
-            path = _builder.write(
+            written = _builder.write(
                 FilePath(folder),
                 vertices,
                 triangles,
@@ -68,7 +71,11 @@ class Scene:
                 up,
             )
             # Photometric files lie anywhere.
-            return load(path, allow_outside=True)._named(name)
+            try:
+                scene = _read([str(written.file)], ["--allow-outside"], written.told)
+            except InputError as error:
+                raise written.error(error) from None
+            return scene._named(name)
 
     def _named(self, source: str) -> Scene:
         self._source = source
@@ -158,6 +165,7 @@ class Scene:
         """The material of every triangle: (n,), counted as in ``materials``, read-only."""
         return fixed(self._native.material_of())
 
+    @checked
     def probe(
         self,
         points: npt.ArrayLike,
@@ -172,8 +180,9 @@ class Scene:
         at every point, at least 32; 16,384 unless given. Returns (n,) :data:`isolux.READING`. Light that glass, gloss and curved
         mirrors throw is left out.
         """
-        call = Call()
-        drawn = (_at_least("paths", paths, 32), seed)
+        at_least(32, paths=paths)
+        at_least(0, seed=seed)
+        call, drawn = Call(), (paths, seed)
         rows = self._native.readings(self._source, places(points, normals), drawn, call)
         call.pass_on()
         return readings(rows)
@@ -201,12 +210,7 @@ def _unpacked(data: bytes, source: str, warnings: Sequence[str]) -> Scene:
     return Scene(_native.Scene.unpacked(data), source, warnings)
 
 
-def _at_least(name: str, value: int | None, least: int) -> int | None:
-    if value is not None and value < least:
-        raise wrong(f"{name} is {value}; give at least {least}")
-    return value
-
-
+@checked
 def load(
     source: Path,
     *further: Path,
@@ -223,7 +227,14 @@ def load(
     files = [os.fspath(file) for file in (source, *further)]
     flags = ["--materials", "as-written"] if materials_as_written else []
     flags += ["--allow-outside"] if allow_outside else []
-    call = Call()
+    return _read(files, flags)
+
+
+def _read(
+    files: Sequence[str], flags: Sequence[str], told: Callable[[str], str] | None = None
+) -> Scene:
+    """Read a scene by the words of the command. What is ``told`` of its files may be said otherwise."""
+    call = Call(told=told)
     try:
         native = _native.Scene.read(["check", *flags, "--", *files], call)
     finally:

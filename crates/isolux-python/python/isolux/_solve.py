@@ -8,6 +8,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
 
+from isolux._arguments import checked, kinds_of, look
 from isolux._call import Call, Increment, Path, with_unit, words
 from isolux._errors import wrong
 from isolux._map import Map
@@ -15,6 +16,7 @@ from isolux._progress import Progress, Shown
 from isolux._scene import Scene, as_scene
 
 
+@checked
 def solve(
     scene: Scene | Path,
     *,
@@ -108,13 +110,17 @@ def solve(
 
 def flags_of(**options: Any) -> list[str]:
     """Options of :func:`solve` in the words of the command."""
+    look(_KINDS, options)
     for name, unit in (("time_limit", "s"), ("min_element", "m")):
         options[name] = with_unit(options.get(name), unit)
     for name in ("filter", "audit", "ambient"):
         options[f"no_{name}"] = not options.pop(name, True)
-    if isinstance(options.get("max_memory"), int):
+    if options.get("max_memory") is not None and not isinstance(options["max_memory"], str):
         options["max_memory"] = f"{options['max_memory']}B"
     return words(**options)
+
+
+_KINDS = kinds_of(solve)
 
 
 def _made(call: Call, name: str) -> Map:

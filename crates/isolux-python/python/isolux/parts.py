@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from isolux import _native
+from isolux._arguments import at_least, checked
 from isolux._call import Call, Path
 from isolux._errors import wrong
 from isolux._map import Map
@@ -25,11 +26,15 @@ from isolux._solve import flags_of, solve
 
 __all__ = ["PartMaker", "make_pilot", "merge", "solve_elsewhere", "to_map"]
 
+#: Increments of a run at most.
+MOST_INCREMENTS = 1 << 15
+
 #: Gets the bytes of the pilot (``None`` if it is the one of before), the number of the mesh and that of an increment, and returns the
 #: part of that increment, or ``None`` to end the run.
 Next = Callable[[bytes | None, int, int], bytes | None]
 
 
+@checked
 def make_pilot(scene: Scene | Path, *, progress: bool = False, **options: Any) -> bytes:
     """Make the pilot of a run, which fixes its elements. ``options`` are those of :func:`isolux.solve`; all parts have them in common."""
     scene = as_scene(scene)
@@ -49,21 +54,30 @@ class PartMaker:
     :class:`isolux.InputError`.
     """
 
+    @checked
     def __init__(self, scene: Scene | Path, pilot: bytes, *, threads: int | None = None) -> None:
+        at_least(1, threads=threads)
         scene = as_scene(scene)
         self._native = _native.PartMaker(scene._native, scene._source, pilot, threads)
 
+    @checked
     def make(self, first: int, end: int) -> bytes:
         """Make the increments with the numbers ``first`` to ``end`` - 1. Other threads of Python go on meanwhile."""
+        if not 0 <= first < end <= MOST_INCREMENTS:
+            raise wrong(
+                f"first and end are {first} and {end}; give 0 <= first < end <= {MOST_INCREMENTS}"
+            )
         return self._native.make(first, end)
 
 
+@checked
 def merge(parts: Sequence[bytes]) -> bytes:
     """Add parts of one run, in any order and grouping."""
     with tempfile.TemporaryDirectory(prefix="isolux-") as folder:
         return _written("all.part", ["merge"], _files(parts, folder))
 
 
+@checked
 def to_map(
     parts: Sequence[bytes],
     scene: Scene | Path,
@@ -83,6 +97,7 @@ def to_map(
     return Map(call.maps[-1][1], scene.name, call)
 
 
+@checked
 def solve_elsewhere(scene: Scene | Path, next: Next, **options: Any) -> Map:
     """Compute a map as :func:`isolux.solve` does, with its ``options`` and its bytes, from increments that ``next`` has made elsewhere.
 

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from isolux import _native
+from isolux._arguments import checked, misfit
 from isolux._errors import wrong
 from isolux._grid import Grid
 from isolux._optional import needed
@@ -38,6 +39,7 @@ _NUMBERS = 16
 class History:
     """Keeps the states of a run: give it to :func:`isolux.solve` as ``callback``."""
 
+    @checked
     def __init__(self, label: str = "") -> None:
         self.label = label
         self.states: list[Progress] = []
@@ -56,17 +58,21 @@ class History:
         return needed("pandas").DataFrame([vars(state) for state in self.states])
 
 
+@checked
 def colour_map(name: str = "viridis") -> Any:
     """A colour map of isolux, ``"viridis"``, ``"inferno"`` or ``"turbo"``, for matplotlib: the colours of ``isolux render`` and ``grid``."""
     colours = needed("matplotlib.colors")
     return colours.ListedColormap(_native.colours(name) / 255.0, name=f"isolux {name}")
 
 
+@checked
 def errors(
     histories: History | Sequence[History], *, against: str = "time", ax: Any = None
 ) -> Any:
     """The reported error of one or several runs against ``"time"`` or ``"rays"``; the target of a run as a dashed line."""
-    every = [histories] if isinstance(histories, History) else list(histories)
+    every = [histories] if isinstance(histories, History) else histories
+    if not isinstance(every, Sequence) or not all(isinstance(one, History) for one in every):
+        raise misfit("histories", histories, "a History, or several in a list")
     keys = {"time": ("elapsed_s", "time, s"), "rays": ("rays", "rays")}
     if against not in keys:
         raise wrong(f"against is {against!r}; choose 'time' or 'rays'")
@@ -87,6 +93,7 @@ def errors(
     return ax
 
 
+@checked
 def graph_1(
     series: Mapping[str, Sequence[tuple[float, float | None]]], *, ax: Any = None, title: str = ""
 ) -> Any:
@@ -95,6 +102,8 @@ def graph_1(
     ``series``: of each method pairs of time in s and error (a share), such as ``study.errors(m, "cube").points``. A dotted line falls like
     one over the root of time, as errors of Monte Carlo methods do.
     """
+    if not isinstance(series, Mapping):
+        raise misfit("series", series, "a dict of lists of pairs, time and error")
     ax = _axes(ax)
     for (label, pairs), colour, mark in zip(series.items(), _colours(), _MARKS * 9):
         rows = sorted((time, error) for time, error in pairs if error)
@@ -110,6 +119,7 @@ def graph_1(
     return ax
 
 
+@checked
 def grid(
     of: Grid,
     *,
@@ -132,8 +142,9 @@ def grid(
     ny, nx = lux.shape
     u, v = (of.border_m + (np.arange(n) + 0.5) * d for n, d in zip((nx, ny), of.spacing_m))
     edges = [of.border_m + np.arange(n + 1) * d for n, d in zip((nx, ny), of.spacing_m)]
-    levels = np.asarray(lines if lines is not None else _round(limits or (lux.min(), lux.max())))
-    shown = limits or (0.0, max(float(lux.max()), *levels[-1:], 1e-9))
+    levels = np.asarray(lines if lines is not None else _round((lux.min(), lux.max()) if limits is None else limits))
+    usual = (0.0, max(float(lux.max()), *levels[-1:], 1e-9))
+    shown = usual if limits is None else limits
     pale = colour_map(colours)(np.linspace(0, 1, 256))
     pale[:, :3] = (1 - _PALENESS) * pale[:, :3] + _PALENESS
     mesh = ax.pcolormesh(
@@ -154,6 +165,7 @@ def grid(
     return ax
 
 
+@checked
 def false_colour(
     lux: npt.ArrayLike,
     *,
@@ -173,7 +185,7 @@ def false_colour(
     if not positive.count():
         raise wrong("no value is known; a logarithmic scale needs one above 0")
     low = float(positive.min()) if logarithmic else min(0.0, float(values.min()))
-    low, high = limits or (low, float(values.max()))
+    low, high = (low, float(values.max())) if limits is None else limits
     norm = colouring.LogNorm if logarithmic else colouring.Normalize
     ax = _axes(ax)
     shown = colour_map(colours).with_extremes(bad="0.6")

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from isolux import _native
+from isolux._arguments import checked
 from isolux._map import Map
 from isolux._readings import Array, fixed
 
@@ -45,6 +46,7 @@ class Errors(NamedTuple):
     told_over_true: float | None
 
 
+@checked
 def points(case: str) -> Exact:
     """The points of the study: A to F of ``"cube"``, the middle of ``"sphere"``. Values are computed to more digits than the study has."""
     rows, named = _native.exact(case)
@@ -53,6 +55,7 @@ def points(case: str) -> Exact:
     return _places(rows[len(rows) - len(named) :], weights / weights.sum(), letters)
 
 
+@checked
 def grid(case: str) -> Exact:
     """Places of equal area: 32 x 32 on a face of ``"cube"``, 16 x 16 on ``"sphere"``."""
     rows, named = _native.exact(case)
@@ -60,6 +63,7 @@ def grid(case: str) -> Exact:
     return _places(rows[:count], np.full(count, 1.0 / count), ())
 
 
+@checked
 def errors(m: Map, case: str) -> Errors:
     """The errors of a map of ``"cube"`` or ``"sphere"``, as ``isolux compare`` has them."""
     return Errors(*_native.errors(m._native, case))

@@ -57,6 +57,11 @@ impl Look {
         surface: None,
     };
 
+    /// Beyond the scene.
+    fn beyond(luminance_cd_m2: Rgb) -> Self {
+        Self { luminance_cd_m2, sharp_cd_m2: luminance_cd_m2, ..Self::NOTHING }
+    }
+
     /// A luminous area.
     fn at_lamp(lamp: MetLamp) -> Self {
         let luminance_cd_m2 = lamp.luminance_cd_m2;
@@ -145,12 +150,20 @@ pub(super) struct Meeting {
     surface: Option<Surface>,
     /// Whether the picture of another place is sharp in it.
     is_clear: bool,
+    /// Whether there is a ray at all.
+    is_aimed: bool,
 }
 
 impl Meeting {
     /// Beside the round picture of a fisheye.
-    pub(super) const NOTHING: Self =
-        Self { hit: None, lamp: None, direction: Direction::X, surface: None, is_clear: false };
+    pub(super) const NOTHING: Self = Self {
+        hit: None,
+        lamp: None,
+        direction: Direction::X,
+        surface: None,
+        is_clear: false,
+        is_aimed: false,
+    };
 
     /// Whether both meet one smooth piece of surface that shows nothing else sharply.
     pub(super) fn continues(&self, other: &Self) -> bool {
@@ -195,7 +208,14 @@ impl Looker<'_> {
         let hit = self.camera_hit(*ray, direction);
         if let Some(lamp) = self.lamp(ray, direction, hit.as_ref()) {
             let surface = Some(lamp.surface);
-            return Meeting { hit: None, lamp: Some(lamp), direction, surface, is_clear: false };
+            return Meeting {
+                hit: None,
+                lamp: Some(lamp),
+                direction,
+                surface,
+                is_clear: false,
+                is_aimed: true,
+            };
         }
         let is_clear = |hit: &Hit| {
             let finish = self.scene.material(hit.triangle).finish(hit.back);
@@ -203,7 +223,7 @@ impl Looker<'_> {
         };
         let surface = hit.and_then(|hit| self.bare(&hit, &self.arrival(&hit, direction)).surface);
         let is_clear = hit.as_ref().is_some_and(is_clear);
-        Meeting { hit, lamp: None, direction, surface, is_clear }
+        Meeting { hit, lamp: None, direction, surface, is_clear, is_aimed: true }
     }
 
     /// A luminous area before what a ray hits.
@@ -238,6 +258,9 @@ impl Looker<'_> {
         match (&meeting.hit, meeting.lamp) {
             (_, Some(lamp)) => Look::at_lamp(lamp),
             (Some(hit), None) => self.at(hit, meeting.direction, start),
+            (None, None) if meeting.is_aimed => {
+                Look::beyond(self.scene.beyond_cd_m2(meeting.direction, true))
+            }
             (None, None) => Look::NOTHING,
         }
     }
@@ -399,7 +422,11 @@ impl Looker<'_> {
         if let Some(lamp) = lamp.and_then(|lamp| told(lamp, lobe, highlighted)) {
             return Look::at_lamp(lamp);
         }
-        let Some(found) = found else { return Look::NOTHING };
+        let Some(found) = found else {
+            // Blurred images of discs are told by looks at luminaires.
+            let with_discs = lobe.density.is_none();
+            return Look::beyond(self.scene.beyond_cd_m2(lobe.direction, with_discs));
+        };
         let of_emitter = lobe.density.zip(highlighted).map_or(1.0, |(density, highlighted)| {
             density / (density + highlighted.density(&found, lobe.direction))
         });

@@ -77,7 +77,8 @@ pub fn trace_watched(
             *centre = middle(&looks, per_side);
         });
     }
-    let has_shadow_noise = !scene.area_luminaires().is_empty() || lamps.is_some();
+    let far = || scene.luminaires().iter().any(|luminaire| luminaire.kind.is_far_extent());
+    let has_shadow_noise = !scene.area_luminaires().is_empty() || lamps.is_some() || far();
     Ok(LuminanceImage::new(size, samples, middles, has_shadow_noise))
 }
 

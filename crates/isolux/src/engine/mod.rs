@@ -21,12 +21,13 @@ mod run;
 #[cfg(test)]
 mod tests;
 
-pub use audit::{AuditSettings, audit, energy_balance};
+pub use audit::{AuditSettings, audit, audit_watched, energy_balance};
 pub use combine::{Finer, FinerSettings, MixError, MixPart, Mixed, mix, mix_apart};
 pub use light::{Arrival, Highlighted, Highlights, ShadowRays, Shining, arrivals};
 pub use method::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
-    IrradianceCache, PathTracer, RadiosityLimits, RadiositySettings, SampleKind, Served,
+    Coefficients, Daylight, IrradianceCache, PathTracer, RadiosityLimits, RadiositySettings,
+    SampleKind, Served,
 };
 pub use ray::{ProbePoint, Sums};
 pub use read::{

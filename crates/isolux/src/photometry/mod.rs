@@ -1,4 +1,4 @@
-//! Luminous intensity distributions.
+//! Luminous intensity distributions, and skies.
 //!
 //! Every distribution lives in the luminaire's own frame: the photometric axis (nadir, gamma = 0)
 //! is **-z**, the C0 half-plane contains **+x**, the C90 half-plane contains **+y**. (glTF lights
@@ -8,6 +8,7 @@ mod angles;
 mod axis;
 mod check;
 mod distribution;
+mod sky;
 mod strip;
 mod symmetry;
 #[cfg(test)]
@@ -17,5 +18,6 @@ mod web;
 pub use angles::AngleSystem;
 pub use check::WebError;
 pub use distribution::IntensityDistribution;
+pub use sky::{AllWeather, CIE_TYPES, GeneralSky, Sky, SkyPatches, SkyPicture, SkyWeather};
 pub use symmetry::Symmetry;
 pub use web::PhotometricWeb;

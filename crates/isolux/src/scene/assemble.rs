@@ -312,18 +312,17 @@ impl Scene {
 
     /// Whether some luminaire gives light: none that is dimmed to nothing does.
     pub fn gives_light(&self) -> bool {
-        let is_parallel = |l: &Luminaire| matches!(l.kind, LuminaireKind::Directional { .. });
-        self.luminous_flux_lm() > 0.0 || self.luminaires.iter().any(is_parallel)
+        self.luminous_flux_lm() > 0.0 || self.luminaires.iter().any(|l| l.kind.is_infinitely_far())
     }
 
-    /// Flux of all luminaires with finite flux, lm (directional light has none of its own).
+    /// Flux of all luminaires with finite flux, lm (the sun and the sky have none of their own).
     pub fn luminous_flux_lm(&self) -> f64 {
         let points: f64 = self
             .luminaires
             .iter()
             .map(|l| match &l.kind {
                 LuminaireKind::Point { intensity, .. } => intensity.luminous_flux_lm(),
-                LuminaireKind::Directional { .. } => 0.0,
+                LuminaireKind::Directional { .. } | LuminaireKind::Sky { .. } => 0.0,
             })
             .sum();
         points + self.area_luminaires.iter().map(AreaLuminaire::luminous_flux_lm).sum::<f64>()

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::photometry::IntensityDistribution;
 use crate::units::Rgb;
+use std::f64::consts::FRAC_PI_2;
 
 /// Reflectances may exceed one by this much: the rounding of decimal fractions and byte colours.
 pub(super) const ENERGY_ROUNDING: f64 = 1e-6;
@@ -217,9 +218,18 @@ fn check_luminaire(luminaire: &Luminaire, groups: usize, report: Report) {
                 say(what, "give finite intensities of zero or more");
             }
         }
-        LuminaireKind::Directional { illuminance_lx, .. } => {
+        LuminaireKind::Directional { illuminance_lx, half_angle_rad, .. } => {
             if !(*illuminance_lx >= 0.0 && illuminance_lx.is_finite()) {
                 say(format!("illuminance {illuminance_lx} lx"), "give a number of zero or more");
+            }
+            if !(0.0..FRAC_PI_2).contains(half_angle_rad) {
+                let what = format!("half angle {half_angle_rad} rad");
+                say(what, "give an angle below a quarter circle; the sun's is 0.00465");
+            }
+        }
+        LuminaireKind::Sky { sky, .. } => {
+            if !sky.is_sound() {
+                say("its luminance is no number".into(), "give finite numbers of zero or more");
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Sources of light.
 
 use super::LuminousArea;
-use crate::photometry::IntensityDistribution;
+use crate::photometry::{IntensityDistribution, Sky};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Point, Transform};
 use serde::{Deserialize, Serialize};
@@ -24,8 +24,22 @@ impl LuminaireKind {
     pub const fn area(&self) -> Option<&LuminousArea> {
         match self {
             Self::Point { area, .. } => area.as_ref(),
-            Self::Directional { .. } => None,
+            Self::Directional { .. } | Self::Sky { .. } => None,
         }
+    }
+
+    /// Whether it is infinitely far away and has an extent: a sky, or the sun.
+    pub fn is_far_extent(&self) -> bool {
+        match self {
+            Self::Sky { .. } => true,
+            Self::Directional { half_angle_rad, .. } => *half_angle_rad > 0.0,
+            Self::Point { .. } => false,
+        }
+    }
+
+    /// Whether its light comes from infinitely far away: then it has no flux of its own.
+    pub const fn is_infinitely_far(&self) -> bool {
+        matches!(self, Self::Directional { .. } | Self::Sky { .. })
     }
 }
 
@@ -45,13 +59,28 @@ pub enum LuminaireKind {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         area: Option<LuminousArea>,
     },
-    /// Parallel light from infinitely far away.
+    /// Light of a disc infinitely far away: parallel light, or the sun.
     Directional {
-        /// Where the light goes.
+        /// Where the light goes, from the middle of the disc.
         direction: Direction,
         /// Illuminance on a surface that faces it, lx.
         illuminance_lx: f64,
+        /// Half of the angle under which the disc is seen, rad; zero for parallel light.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        half_angle_rad: f64,
     },
+    /// Light from infinitely far away, all around.
+    Sky {
+        /// Rotation from the frame of skies (x east, y north, z to the zenith); no scale.
+        world_from_sky: Transform,
+        /// Its luminance.
+        sky: Sky,
+    },
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+const fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// The maintenance factors that the light of luminaires already contains.

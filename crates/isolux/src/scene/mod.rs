@@ -4,6 +4,7 @@
 //! and builds the ray kernel. Engines take only a [`Scene`].
 
 mod assemble;
+mod beyond;
 mod bounded;
 mod check;
 mod coat;

@@ -37,7 +37,7 @@ pub(super) fn before_surfaces(
             let kind = LuminaireKind::Point { position, world_from_luminaire, intensity, area };
             Luminaire { kind, ..luminaire }
         }
-        LuminaireKind::Directional { .. } => luminaire,
+        LuminaireKind::Directional { .. } | LuminaireKind::Sky { .. } => luminaire,
     };
     luminaires.into_par_iter().map(before).collect()
 }

@@ -21,6 +21,13 @@ impl Scene {
         is_lit.then_some(scene)
     }
 
+    /// The same surfaces in the light of one luminaire alone.
+    #[must_use]
+    pub fn below(&self, luminaire: Luminaire) -> Self {
+        let materials = self.materials().iter().map(|m| shining(m, [(m, 0.0)])).collect();
+        self.relit(vec![Luminaire { group: 0, ..luminaire }], Vec::new(), materials)
+    }
+
     /// The surfaces of the first of several scenes in the light of all of them, each times a factor >= 0.
     /// They must have the same [`Scene::surfaces_hash`]. Groups are told apart by name; the light of a
     /// scene without groups is in one named after it.
@@ -93,9 +100,12 @@ impl Dimmer {
                 let intensity = self.scaled(&intensity);
                 LuminaireKind::Point { position, world_from_luminaire, intensity, area }
             }
-            LuminaireKind::Directional { direction, illuminance_lx } => {
+            LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad } => {
                 let illuminance_lx = illuminance_lx * self.factor;
-                LuminaireKind::Directional { direction, illuminance_lx }
+                LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad }
+            }
+            LuminaireKind::Sky { world_from_sky, sky } => {
+                LuminaireKind::Sky { world_from_sky, sky: sky.scaled(self.factor) }
             }
         }
     }

@@ -31,7 +31,7 @@ fn room_of(size: f64, at: f64) -> Scene {
 fn parallel(direction: [f64; 3]) -> Scene {
     let direction = isolux::geometry::Vector::from(direction).direction().expect("a direction");
     let sun = Luminaire {
-        kind: LuminaireKind::Directional { direction, illuminance_lx: 1e5 },
+        kind: LuminaireKind::Directional { direction, illuminance_lx: 1e5, half_angle_rad: 0.0 },
         ..lamp([0.0; 3], 0.0)
     };
     scene(vec![floor(1.0)], vec![painted(0.5)], vec![sun])

@@ -59,7 +59,8 @@ fn cos_incidence() -> f64 {
 fn sun() -> Luminaire {
     let (sin, cos) = libm::sincos(INCIDENCE_DEG.to_radians());
     let direction = Vector::new(sin, 0.0, -cos).direction().unwrap_or(-Direction::Z);
-    let kind = LuminaireKind::Directional { direction, illuminance_lx: SUN_LX };
+    let kind =
+        LuminaireKind::Directional { direction, illuminance_lx: SUN_LX, half_angle_rad: 0.0 };
     Luminaire { name: "sun".into(), group: 0, colour: Rgb::WHITE, kind }
 }
 

@@ -1,18 +1,16 @@
 //! 5.11 under the overcast and the clear sky: the sky component at an unglazed window in the facade.
 //!
-//! A quarter of a sphere before the window stands for the sky ([`super::sky`]), and below the horizon there is
-//! nothing: under a sky that is not uniform the illuminance of the ground beside a building has no exact
+//! The sky is infinitely far away ([`super::sky`]), and below the horizon there is nothing: under a sky that is not uniform the illuminance of the ground beside a building has no exact
 //! form that is short, so the externally reflected component is left to the uniform sky
 //! ([`super::facade`]). The sun of the clear sky stands behind the building.
 
 use super::room::black;
-use super::sky::{CieSky, Dome, Facet, Skylight, shapes_of};
+use super::sky::{CieSky, Skylight};
 use super::street::{room, window};
 use crate::expectation::{Case, Expectation};
 use isolux::engine::ProbePoint;
-use isolux::geometry::{Point, Vector};
+use isolux::geometry::Vector;
 use isolux::scene::SceneParts;
-use std::f64::consts::FRAC_PI_2;
 
 const ZENITH_CD_M2: f64 = 4000.0;
 
@@ -41,37 +39,24 @@ fn clear() -> CieSky {
     CieSky::clear(ZENITH_CD_M2, Vector::new(-0.7, 0.3, 0.6))
 }
 
-fn facets(sky: &CieSky) -> Vec<Facet> {
-    let dome = Dome {
-        centre: Point::new(0.0, 2.0, 2.0),
-        radius_m: 40.0,
-        azimuths_rad: [-FRAC_PI_2, FRAC_PI_2],
-        facets: [24, 30],
-    };
-    dome.facets(sky)
-}
-
 fn parts(name: &str, sky: &CieSky) -> SceneParts {
-    let (shapes_of_sky, materials_of_sky) = shapes_of(&facets(sky), 1);
-    let mut shapes = room().shapes(Some(window()));
-    shapes.extend(shapes_of_sky);
-    let mut materials = vec![black()];
-    materials.extend(materials_of_sky);
-    SceneParts { name: name.into(), shapes, materials, ..SceneParts::default() }
+    let shapes = room().shapes(Some(window()));
+    let (materials, luminaires) = (vec![black()], vec![sky.luminaire()]);
+    SceneParts { name: name.into(), shapes, materials, luminaires, ..SceneParts::default() }
 }
 
-/// All well below the window: higher up only sky near the horizon is seen, where the dome ends at another angle.
+/// Below the window, and at its height, where the sky is seen down to the horizon.
 fn places() -> Vec<ProbePoint> {
     let room = room();
     let floor = [-0.6, -1.3, -2.0, -2.8, -3.6].map(|x| room.floor.place(x, 2.0));
-    let back = [0.3, 0.6, 0.9].map(|z| room.west.place(2.0, z));
+    let back = [0.3, 0.9, 1.8].map(|z| room.west.place(2.0, z));
     let side = [(0.7, -1.5), (1.2, -3.0)].map(|(z, x)| room.south.place(z, x));
     [floor.as_slice(), &back, &side].concat()
 }
 
 fn expectations(sky: &CieSky) -> Vec<Expectation> {
-    let (facets, corners) = (facets(sky), window().corners());
-    let skylight = Skylight { sky, facets: &facets, opening: &corners, transmitted: None };
+    let corners = window().corners();
+    let skylight = Skylight { sky, opening: &corners, transmitted: None };
     places().into_iter().flat_map(|at| skylight.expected(at)).collect()
 }
 
@@ -84,9 +69,8 @@ mod tests {
     #[test]
     fn the_sky_through_the_window_agrees_with_a_sum_over_rays() {
         for sky in [overcast(), clear()] {
-            let (none, corners) = (Vec::new(), window().corners());
-            let skylight =
-                Skylight { sky: &sky, facets: &none, opening: &corners, transmitted: None };
+            let corners = window().corners();
+            let skylight = Skylight { sky: &sky, opening: &corners, transmitted: None };
             for at in places() {
                 let (steps, mut sum) = (400, 0.0);
                 for k in 0..steps * steps {

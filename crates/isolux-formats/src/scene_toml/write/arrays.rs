@@ -41,7 +41,7 @@ fn numbered(name: &str) -> Option<(&str, [u32; 3])> {
 fn position(luminaire: &Luminaire) -> Option<Point> {
     match luminaire.kind {
         LuminaireKind::Point { position, .. } => Some(position),
-        LuminaireKind::Directional { .. } => None,
+        LuminaireKind::Directional { .. } | LuminaireKind::Sky { .. } => None,
     }
 }
 

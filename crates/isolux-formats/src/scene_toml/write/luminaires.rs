@@ -3,6 +3,7 @@
 use super::arrays::{Run, next_run};
 use super::lamps::Catalogue;
 use super::numbers::shortest;
+use super::skies;
 use super::text::{colour, number, quoted, triple};
 use isolux::geometry::{Direction, Transform, Vector};
 use isolux::photometry::IntensityDistribution;
@@ -35,9 +36,21 @@ fn entry(parts: &SceneParts, run: &Run, catalogue: &Catalogue) -> String {
         line("colour", colour(run.first.colour));
     }
     match &run.first.kind {
-        LuminaireKind::Directional { direction, illuminance_lx } => {
+        LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad } => {
             line("direction", triple((*direction).to_vector().into()));
-            line("directional", format!("{{ illuminance_lx = {} }}", number(*illuminance_lx)));
+            let lx = number(*illuminance_lx);
+            let makes = |deg: f64| (0.5 * deg).to_radians() == *half_angle_rad;
+            let angle = match *half_angle_rad > 0.0 {
+                true => {
+                    let angle_deg = shortest(2.0 * half_angle_rad.to_degrees(), makes);
+                    format!(", angle_deg = {}", number(angle_deg))
+                }
+                false => String::new(),
+            };
+            line("directional", format!("{{ illuminance_lx = {lx}{angle} }}"));
+        }
+        LuminaireKind::Sky { world_from_sky, sky } => {
+            line("sky", skies::value(parts, world_from_sky, sky));
         }
         LuminaireKind::Point { position, world_from_luminaire, intensity, area } => {
             let (key, value, dimming) = light(intensity, catalogue);

@@ -9,17 +9,31 @@ mod lamps;
 mod luminaires;
 mod materials;
 mod numbers;
+mod skies;
 mod text;
 
 pub use file::SceneFile;
 pub use lamps::NamedPhotometry;
 
+use crate::luminance::LuminanceError;
 use crate::png::{self, PngError};
 use isolux::scene::{SceneParts, Texture, UpAxis};
 
+/// Why a scene cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// A texture cannot be.
+    #[error(transparent)]
+    Texture(#[from] PngError),
+    /// A picture of a sky cannot be.
+    #[error(transparent)]
+    Sky(#[from] LuminanceError),
+}
+
 /// All files of a scene, `scene.toml` first. Photometric files that luminaires were made from, if
 /// they are known, are used as they are, with a dimming; others are made.
-pub fn write(parts: &SceneParts, known: &[NamedPhotometry]) -> Result<Vec<SceneFile>, PngError> {
+pub fn write(parts: &SceneParts, known: &[NamedPhotometry]) -> Result<Vec<SceneFile>, WriteError> {
     let catalogue = lamps::Catalogue::of(parts, known);
     let mut toml = head(parts);
     toml += &materials::text(parts);
@@ -33,6 +47,7 @@ pub fn write(parts: &SceneParts, known: &[NamedPhotometry]) -> Result<Vec<SceneF
     for (index, texture) in parts.textures.iter().enumerate() {
         files.push(SceneFile::new(materials::texture_name(index as u32), picture(texture)?));
     }
+    files.extend(skies::files(parts)?.into_iter().map(|(name, bytes)| SceneFile::new(name, bytes)));
     Ok(files)
 }
 

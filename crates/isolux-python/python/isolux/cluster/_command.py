@@ -33,6 +33,8 @@ def main(arguments: Sequence[str]) -> int:
         for problem in error.problems:
             print(f"error: {problem.message}", file=sys.stderr)
         return 4 if isinstance(error, RefusedError) else 2
+    except KeyboardInterrupt:
+        return 130
     except (ImportError, ConnectionError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 4

@@ -5,14 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from isolux import _solve
+from isolux._arguments import at_least, checked
 from isolux._call import Path
-from isolux._errors import wrong
 from isolux._map import Map
 from isolux._scene import Scene, as_scene
 from isolux.cluster._feed import Feed
 from isolux.cluster._ray import connected
 
 
+@checked
 def solve(
     scene: Scene | Path,
     *,
@@ -30,9 +31,7 @@ def solve(
     The pilot and the audit are made here, on ``threads``. Workers, and nodes, may be lost and added on the way: what was lost is made
     again. Ctrl-C, ``time_limit`` and ``callback`` end the run with the map so far; with ``output``, ``resume=True`` goes on from it.
     """
-    for name, value in (("workers", workers), ("worker_threads", worker_threads)):
-        if value is not None and value < 1:
-            raise wrong(f"{name} is {value}; give at least 1")
+    at_least(1, workers=workers, worker_threads=worker_threads)
     scene = as_scene(scene)
     cpus = workers * worker_threads if workers else None
     with connected(address, cpus) as ray:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
+from isolux._arguments import at_least, checked
 from isolux._call import Path
 from isolux._errors import InputError, wrong
 from isolux._scene import load
@@ -42,6 +43,7 @@ class Table(list[dict[str, Any]]):
         return Table(row for row in self if row.get("error") is not None)
 
 
+@checked
 def study(
     function: Callable[..., Mapping[str, Any]],
     variants: Iterable[Variant],
@@ -68,9 +70,7 @@ def study(
 
     Ctrl-C raises ``KeyboardInterrupt``; rows that were made are in ``output``.
     """
-    for name, value in (("workers", workers), ("threads", threads)):
-        if value is not None and value < 1:
-            raise wrong(f"{name} is {value}; give at least 1")
+    at_least(1, workers=workers, threads=threads)
     asked = [dict(variant) for variant in variants]
     keys = [_key(number, variant) for number, variant in enumerate(asked)]
     file = FilePath(output) if output is not None else None

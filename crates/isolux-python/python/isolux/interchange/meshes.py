@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from isolux._arguments import checked
 from isolux._builder import Material
 from isolux._map import Map
 from isolux._optional import needed
@@ -25,6 +26,7 @@ def _at_vertices(m: Map) -> dict[str, npt.NDArray[np.float64]]:
     return {name: np.ascontiguousarray(m.values[name]) for name in m.values.dtype.names or ()}
 
 
+@checked
 def to_trimesh(m: Map) -> Any:
     """A map as a ``trimesh.Trimesh``: ``vertex_attributes`` has ``illuminance_lx``, ``standard_error_lx`` and the others of
     :data:`isolux.READING`; ``face_attributes`` has ``scene_triangle``. Vertices stay as they are, those of the map."""
@@ -39,6 +41,7 @@ def to_trimesh(m: Map) -> Any:
     )
 
 
+@checked
 def to_pyvista(m: Map) -> Any:
     """A map as a ``pyvista.PolyData``: point data have ``illuminance_lx`` (active), ``standard_error_lx`` and the others of
     :data:`isolux.READING`, cell data have ``scene_triangle``. Needs a version of PyVista with ``PolyData.from_regular_faces``."""

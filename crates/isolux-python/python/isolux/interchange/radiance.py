@@ -9,12 +9,14 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from isolux._arguments import checked
 from isolux._errors import InputError
 from isolux._readings import Array, Readings
 
 _MOST_PROBLEMS = 20
 
 
+@checked
 def read_pts(path: str | os.PathLike[str]) -> tuple[Array, Array]:
     """Read sensor points: ``x y z dx dy dz`` a line, in metres, as ``rtrace`` takes them. Returns positions and directions, (n, 3) each,
     which :meth:`isolux.Map.probe` takes."""
@@ -58,6 +60,7 @@ def _six(words: list[str]) -> list[float] | str:
     return numbers if any(numbers[3:]) else "the direction is zero"
 
 
+@checked
 def write_res(path: str | os.PathLike[str], values: Readings | npt.ArrayLike) -> None:
     """Write illuminances in lx, one a line in the order of the points, as Radiance and Honeybee have results of a grid of sensors.
 
@@ -70,6 +73,7 @@ def write_res(path: str | os.PathLike[str], values: Readings | npt.ArrayLike) ->
     Path(path).write_text("".join(lines), encoding="ascii", newline="\n")
 
 
+@checked
 def read_res(path: str | os.PathLike[str]) -> Array:
     """Read what :func:`write_res`, Radiance or Honeybee have written: (n,), or (n, 3) where there are three columns."""
     return np.loadtxt(path, dtype=np.float64, ndmin=1)

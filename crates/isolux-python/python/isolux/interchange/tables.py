@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from isolux._arguments import checked
 from isolux._grid import Grid
 from isolux._map import Map
 from isolux._optional import needed
@@ -20,11 +21,13 @@ _WORDS = {
 }
 
 
+@checked
 def grid_frame(grid: Grid) -> Any:
     """A grid as a table of pandas: a row a point, ``x_m``, ``y_m``, ``z_m`` and what is known there, in lx."""
     return _frame(grid.positions.reshape(-1, 3), grid.values.reshape(-1), list(_WORDS))
 
 
+@checked
 def map_frame(m: Map) -> Any:
     """A map as a table of pandas: a row a vertex, with its area in m2, its normal, and the light there."""
     names = [name for name in m.values.dtype.names or () if name != "rgb_lx"]
@@ -43,6 +46,7 @@ def _frame(positions: Array, values: npt.NDArray[Any], names: list[str]) -> Any:
     return needed("pandas").DataFrame(columns)
 
 
+@checked
 def grid_dataset(grid: Grid) -> Any:
     """A grid as an ``xarray.Dataset`` with the dimensions ``v`` and ``u``.
 

@@ -10,7 +10,7 @@ use crate::engine::light::{Emission, Lighting, Particle, scatterings};
 use crate::engine::read::reference_lx;
 use crate::map::{EnergyBalance, IlluminationMap, MeasuredFlux, SurfaceBalance, VertexLight};
 use crate::sampling::{Key, Sequence};
-use crate::scene::{LuminaireKind, Scene};
+use crate::scene::Scene;
 use rayon::prelude::*;
 
 /// The number of independent replicates of the particles.
@@ -34,7 +34,7 @@ struct Mapped {
 }
 
 /// The balance of energy of a scene and of its map, by `particles` particles. `None` where there is no light, or
-/// parallel light, whose flux depends on what is taken for the scene.
+/// light from infinitely far away, whose flux depends on what is taken for the scene.
 pub fn energy_balance(
     scene: &Scene,
     map: &IlluminationMap,
@@ -42,8 +42,7 @@ pub fn energy_balance(
     seed: u64,
 ) -> Option<EnergyBalance> {
     let emission = Emission::new(scene)?;
-    let is_parallel = |kind: &LuminaireKind| matches!(kind, LuminaireKind::Directional { .. });
-    if scene.luminaires().iter().any(|luminaire| is_parallel(&luminaire.kind)) {
+    if scene.luminaires().iter().any(|luminaire| luminaire.kind.is_infinitely_far()) {
         return None;
     }
     let lighting = Lighting::new(scene);

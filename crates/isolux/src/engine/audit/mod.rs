@@ -75,16 +75,26 @@ impl Default for AuditSettings {
 /// Audits a map of a scene. `None` where the map reports no error, where almost nothing of it is known, and
 /// where neither map nor paths have light.
 pub fn audit(scene: &Scene, map: &IlluminationMap, settings: &AuditSettings) -> Option<Audit> {
+    audit_watched(scene, map, settings, &mut |_| {})
+}
+
+/// The same; `watch` is told the share of the places that are compared.
+pub fn audit_watched(
+    scene: &Scene,
+    map: &IlluminationMap,
+    settings: &AuditSettings,
+    watch: &mut dyn FnMut(f64),
+) -> Option<Audit> {
     let lighting = Arc::new(Lighting::new(scene));
     let (bright, _) = BrightSurfaces::of(scene, &lighting, map.provenance.seed);
-    audit_with((scene, map), (lighting, bright), settings)
+    audit_with((scene, map), (lighting, bright), (settings, watch))
 }
 
 /// An audit with prepared luminaires, and with bright surfaces prepared for the seed of the map.
 pub(super) fn audit_with<'a>(
     (scene, map): (&'a Scene, &'a IlluminationMap),
     (lighting, bright): (Arc<Lighting<'a>>, Option<Arc<BrightSurfaces>>),
-    settings: &AuditSettings,
+    (settings, watch): (&AuditSettings, &mut dyn FnMut(f64)),
 ) -> Option<Audit> {
     let told = map.provenance.accuracy?.reached;
     let reader = MapReader::prepared((scene, map), Arc::clone(&lighting), bright);
@@ -95,6 +105,7 @@ pub(super) fn audit_with<'a>(
     let paths_of_place = (AuditSettings::REPLICATES, settings.paths);
     let mut next = 0;
     while next < settings.places && (next == 0 || rays + reader.rays() < settings.most_rays) {
+        watch(next as f64 / settings.places as f64);
         let batch = next..settings.places.min(next + BATCH);
         next = batch.end;
         let one = |number: u64| {

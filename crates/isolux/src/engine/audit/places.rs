@@ -167,7 +167,7 @@ impl<'a> Places<'a> {
         let ray = match scene.luminaires().get(drawn) {
             Some(luminaire) => match &luminaire.kind {
                 LuminaireKind::Point { position, .. } => Ray::new(*position, any_way(square(3))?),
-                LuminaireKind::Directional { .. } => return None,
+                LuminaireKind::Directional { .. } | LuminaireKind::Sky { .. } => return None,
             },
             None => self.emission.as_ref()?.leaving(
                 drawn,

@@ -8,7 +8,7 @@ use super::emission::Emission;
 use crate::elements::carries_map;
 use crate::engine::ray::{Dice, PathEnd, follow};
 use crate::sampling::{Key, Sequence};
-use crate::scene::{LuminaireKind, Scene};
+use crate::scene::Scene;
 use rayon::prelude::*;
 
 /// Particles of all luminaires together. The share of many luminaires together is known to a
@@ -29,13 +29,13 @@ const LITTLE_ARRIVING_SHARE: f64 = 0.05;
 pub struct Arrival {
     /// Name of the luminaire, or of the shape that emits.
     pub name: String,
-    /// Luminous flux, lm; `None` for parallel light, which is unbounded.
+    /// Luminous flux, lm; `None` for light from infinitely far away, which is unbounded.
     pub luminous_flux_lm: Option<f64>,
     /// Share that reaches a side that carries a map, straight or over mirrors and glass.
     pub arrives: f64,
     /// Share that leaves the scene before, or ends on a side that carries no map and reflects
     /// nothing: the back of a one-sided surface, another lamp. Mirrors and glass keep the rest.
-    /// Parallel light that passes by the scene is not counted.
+    /// Light from infinitely far away that passes by the scene is not counted.
     pub lost: f64,
 }
 
@@ -59,14 +59,14 @@ pub fn arrivals(scene: &Scene) -> Vec<Arrival> {
 
 fn arrival(scene: &Scene, emission: &Emission, number: usize, count: usize) -> Arrival {
     let point = scene.luminaires().get(number);
-    let is_parallel = point.is_some_and(|l| matches!(l.kind, LuminaireKind::Directional { .. }));
+    let is_far = point.is_some_and(|l| l.kind.is_infinitely_far());
     let shares = |look: u64, count: usize| {
         let sequence = Sequence::new(Key::new(number as u64).with(look));
         let counts = sent(scene, emission, number, (sequence, count));
-        let left = if is_parallel { 0 } else { counts.left };
+        let left = if is_far { 0 } else { counts.left };
         let lost = left + counts.shut_out;
         let all = (counts.arrived + counts.kept + lost) as f64;
-        // All parallel light may pass by the scene.
+        // All light from far away may pass by the scene.
         if all > 0.0 { [counts.arrived as f64 / all, lost as f64 / all] } else { [0.0, 1.0] }
     };
     let first = shares(0, count);
@@ -78,7 +78,7 @@ fn arrival(scene: &Scene, emission: &Emission, number: usize, count: usize) -> A
             Some(luminaire) => luminaire.name.clone(),
             None => scene.shape_names()[area().shape as usize].clone(),
         },
-        luminous_flux_lm: (!is_parallel).then(|| emission.part(number) * emission.flux_lm()),
+        luminous_flux_lm: (!is_far).then(|| emission.part(number) * emission.flux_lm()),
         arrives,
         lost,
     }

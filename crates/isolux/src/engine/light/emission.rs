@@ -1,11 +1,12 @@
 //! Particles that leave luminaires in proportion to flux.
 
-use super::sources::LuminaireId;
+use super::far_sky::{FarSky, on_disc};
+use super::sources::{LuminaireId, inverse_of_rotation};
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::CosineHemisphere;
 use crate::scene::{AreaLuminaire, Luminaire, LuminaireKind, Scene};
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Normal, Point, Ray};
+use isolux_geometry::{Direction, Normal, Point, Ray, Vector};
 use std::f64::consts::PI;
 
 /// The smallest intensity of a luminaire towards an extended target, as a share of its mean
@@ -19,9 +20,11 @@ pub(crate) struct Emission<'s> {
     sums_lm: Vec<f64>,
     /// Running sums of the areas of the triangles of every emitting surface, m2.
     sums_m2: Vec<Vec<f64>>,
-    /// Centre of a sphere around the scene, which parallel light has to cover.
+    /// Centre of a sphere around the scene, which light from far away has to cover.
     centre: Point,
     radius_m: f64,
+    /// Skies, by the number of the luminaire.
+    skies: Vec<(usize, FarSky)>,
 }
 
 impl Emitted {
@@ -36,7 +39,7 @@ pub(crate) struct Emitted {
     pub(crate) ray: Ray,
     pub(crate) direction: Direction,
     pub(crate) luminaire: LuminaireId,
-    /// Colour of its flux, with a photometric value of one.
+    /// Colour of its flux, with a photometric value of one on average.
     pub(crate) colour: Rgb,
     /// Normal of the surface that it leaves.
     normal: Option<Normal>,
@@ -47,11 +50,16 @@ impl<'s> Emission<'s> {
     pub(crate) fn new(scene: &'s Scene) -> Option<Self> {
         let (low, high) = scene.bvh().mesh().bounds()?;
         let radius_m = 0.5 * (high - low).length() * (1.0 + 1e-3);
-        let points = scene.luminaires().iter().map(|luminaire| {
+        let skies = skies(scene);
+        let points = scene.luminaires().iter().enumerate().map(|(number, luminaire)| {
             let white = match &luminaire.kind {
                 LuminaireKind::Point { intensity, .. } => intensity.luminous_flux_lm(),
                 LuminaireKind::Directional { illuminance_lx, .. } => {
                     illuminance_lx * PI * radius_m * radius_m
+                }
+                LuminaireKind::Sky { .. } => {
+                    let mean_cd_m2 = sky(&skies, number).map_or(0.0, FarSky::mean_cd_m2);
+                    4.0 * PI * mean_cd_m2 * PI * radius_m * radius_m
                 }
             };
             white * luminaire.colour.luminance()
@@ -69,7 +77,7 @@ impl<'s> Emission<'s> {
             return None;
         }
         let sums_m2 = scene.area_luminaires().iter().map(|area| sums_m2(scene, area)).collect();
-        Some(Self { scene, sums_lm, sums_m2, centre: low.lerp(high, 0.5), radius_m })
+        Some(Self { scene, sums_lm, sums_m2, centre: low.lerp(high, 0.5), radius_m, skies })
     }
 
     /// Flux of all luminaires, lm.
@@ -104,17 +112,43 @@ impl<'s> Emission<'s> {
             }
             Emitter::Other(luminaire) => luminaire,
         };
-        let (origin, direction) = match &luminaire.kind {
+        match &luminaire.kind {
             LuminaireKind::Point { world_from_luminaire, intensity, .. } => {
                 let local = intensity.sample(square)?;
                 let direction = world_from_luminaire.vector(local.to_vector()).direction()?;
-                (origin(&luminaire.kind, other, place)?, direction)
+                let origin = origin(&luminaire.kind, other, place)?;
+                Some(self.sent(number, luminaire, origin, direction))
             }
-            LuminaireKind::Directional { direction, .. } => {
-                (self.on_disc(*direction, place), *direction)
+            LuminaireKind::Directional { .. } | LuminaireKind::Sky { .. } => {
+                let (direction, colour) = self.afar(number, luminaire, (other, square))?;
+                let origin = self.on_disc(direction, place);
+                Some(Emitted { colour, ..self.sent(number, luminaire, origin, direction) })
             }
-        };
-        Some(self.sent(number, luminaire, origin, direction))
+        }
+    }
+
+    /// A direction of light from infinitely far away, and the colour of its flux: of a sky, times what the luminance there is
+    /// over the mean of its cell.
+    fn afar(
+        &self,
+        number: usize,
+        luminaire: &Luminaire,
+        (pick, square): (f64, [f64; 2]),
+    ) -> Option<(Direction, Rgb)> {
+        match &luminaire.kind {
+            LuminaireKind::Directional { direction, half_angle_rad, .. } => {
+                let towards = on_disc(-*direction, *half_angle_rad, square);
+                Some((-towards, luminaire.colour.chromaticity()))
+            }
+            LuminaireKind::Sky { .. } => {
+                let sky = sky(&self.skies, number)?;
+                let towards = sky.draw(pick, square)?;
+                let cell_cd_m2 = sky.density(towards) * 4.0 * PI * sky.mean_cd_m2();
+                let share = sky.luminance_cd_m2(towards) / cell_cd_m2;
+                Some((-towards, luminaire.colour.chromaticity() * share))
+            }
+            LuminaireKind::Point { .. } => None,
+        }
     }
 
     /// A ray from a random place of an emitting surface, cosine-distributed. `number` is that among all luminaires.
@@ -162,17 +196,15 @@ impl<'s> Emission<'s> {
                 (direction.cos(start.normal) > 0.0)
                     .then(|| self.leave(number, area, &start, direction))
             }
+            Emitter::Other(luminaire) if luminaire.kind.is_infinitely_far() => {
+                let (direction, colour) = self.afar(number, luminaire, (pick, place))?;
+                let beyond_m = (to - self.centre).dot(direction.to_vector());
+                let origin = to - direction * (2.0 * self.radius_m + beyond_m);
+                Some(Emitted { colour, ..self.sent(number, luminaire, origin, direction) })
+            }
             Emitter::Other(luminaire) => {
-                let (origin, direction) = match &luminaire.kind {
-                    LuminaireKind::Point { .. } => {
-                        let origin = origin(&luminaire.kind, pick, place)?;
-                        (origin, (to - origin).direction()?)
-                    }
-                    LuminaireKind::Directional { direction, .. } => {
-                        let beyond_m = (to - self.centre).dot(direction.to_vector());
-                        (to - *direction * (2.0 * self.radius_m + beyond_m), *direction)
-                    }
-                };
+                let origin = origin(&luminaire.kind, pick, place)?;
+                let direction = (to - origin).direction()?;
                 Some(self.sent(number, luminaire, origin, direction))
             }
         }
@@ -214,6 +246,10 @@ impl<'s> Emission<'s> {
                 let origin = match &luminaire.kind {
                     LuminaireKind::Point { position, .. } => *position,
                     LuminaireKind::Directional { direction, .. } => at - direction.to_vector(),
+                    // From the zenith: it makes no difference.
+                    LuminaireKind::Sky { world_from_sky, .. } => {
+                        at + world_from_sky.vector(Vector::new(0.0, 0.0, 1.0))
+                    }
                 };
                 let (direction, distance2) = from(origin);
                 let told = direction.map(|d| self.on_one_m2(number, luminaire, d, distance2));
@@ -233,7 +269,7 @@ impl<'s> Emission<'s> {
         distance2: f64,
     ) -> f64 {
         match &luminaire.kind {
-            LuminaireKind::Directional { .. } => {
+            LuminaireKind::Directional { .. } | LuminaireKind::Sky { .. } => {
                 self.part(number) / (PI * self.radius_m * self.radius_m)
             }
             LuminaireKind::Point { world_from_luminaire, intensity, .. } => {
@@ -282,7 +318,7 @@ impl<'s> Emission<'s> {
         Ray::new(self.scene.bvh().mesh().rounded(origin), direction)
     }
 
-    /// A start of parallel light: uniform over a disc that covers the scene.
+    /// A start of light from far away: uniform over a disc that covers the scene.
     fn on_disc(&self, direction: Direction, [a, b]: [f64; 2]) -> Point {
         let (u, v) = direction.frame();
         let radius = self.radius_m * a.sqrt();
@@ -319,7 +355,23 @@ impl<'s> Emission<'s> {
     }
 }
 
-/// Where light leaves a luminaire: its position, or a place of its luminous area; `None` for parallel light.
+/// The skies of a scene, by the number of the luminaire.
+fn skies(scene: &Scene) -> Vec<(usize, FarSky)> {
+    let of = |(number, luminaire): (usize, &Luminaire)| match &luminaire.kind {
+        LuminaireKind::Sky { world_from_sky, sky } => {
+            Some((number, FarSky::new(sky, inverse_of_rotation(world_from_sky))))
+        }
+        _ => None,
+    };
+    scene.luminaires().iter().enumerate().filter_map(of).collect()
+}
+
+fn sky(skies: &[(usize, FarSky)], number: usize) -> Option<&FarSky> {
+    skies.iter().find(|(of, _)| *of == number).map(|(_, sky)| sky)
+}
+
+/// Where light leaves a luminaire: its position, or a place of its luminous area; `None` for light from
+/// infinitely far away.
 fn origin(kind: &LuminaireKind, pick: f64, [a, b]: [f64; 2]) -> Option<Point> {
     let LuminaireKind::Point { position, world_from_luminaire, area, .. } = kind else {
         return None;

@@ -2,6 +2,7 @@
 
 mod arrivals;
 mod emission;
+mod far_sky;
 mod highlights;
 pub(crate) mod landings;
 mod lighting;

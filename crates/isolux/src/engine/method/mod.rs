@@ -20,7 +20,7 @@ pub(crate) use forward::Forward;
 pub(crate) use hybrid::{Hybrid, IncrementSize, READERS};
 pub(crate) use radiosity::{Left, Radiosity};
 pub use radiosity::{RadiosityLimits, RadiositySettings};
-pub use reference::PathTracer;
 pub(crate) use reference::Traced;
+pub use reference::{Coefficients, Daylight, PathTracer};
 #[cfg(test)]
 pub(crate) use tally::Tally;

@@ -50,7 +50,8 @@ fn brought(flights: &Flights, count: u32) -> [f64; 2] {
 fn aimed_particles_bring_as_much_to_the_same_places_with_less_noise() {
     let spot = IntensityDistribution::CosinePower { peak_cd: 200.0, exponent: 3.0 };
     let towards = direction([0.3, 0.2, -0.8]);
-    let sun = LuminaireKind::Directional { direction: towards, illuminance_lx: 5.0 };
+    let sun =
+        LuminaireKind::Directional { direction: towards, illuminance_lx: 5.0, half_angle_rad: 0.0 };
     let lamps = [Some(isotropic([2.0, 1.5, 2.0], 50.0)), Some(point([1.5, 0.7, 2.2], spot)), None];
     for lamp in lamps.into_iter().chain([Some(luminaire(sun))]) {
         let scene = room(lamp);

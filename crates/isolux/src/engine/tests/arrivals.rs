@@ -70,6 +70,7 @@ fn of_parallel_light_what_passes_by_is_not_counted() {
         let kind = LuminaireKind::Directional {
             direction: direction([0.0, 0.6, -0.8]),
             illuminance_lx: 5.0,
+            half_angle_rad: 0.0,
         };
         luminaire(kind)
     };

@@ -62,8 +62,11 @@ fn a_wall_that_lost_its_light_is_named() {
 
 #[test]
 fn parallel_light_has_no_balance() {
-    let sun =
-        LuminaireKind::Directional { direction: direction([0.0, 0.0, -1.0]), illuminance_lx: 1e4 };
+    let sun = LuminaireKind::Directional {
+        direction: direction([0.0, 0.0, -1.0]),
+        illuminance_lx: 1e4,
+        half_angle_rad: 0.0,
+    };
     let [room, _] = rooms();
     let map = solved(&room);
     let mut parts = room.to_parts();

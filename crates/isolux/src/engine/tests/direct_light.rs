@@ -120,8 +120,11 @@ fn webs_turn_with_their_luminaire() {
 
 #[test]
 fn parallel_light_depends_on_the_angle_alone() {
-    let kind =
-        LuminaireKind::Directional { direction: direction([0.6, 0.0, -0.8]), illuminance_lx: 1e5 };
+    let kind = LuminaireKind::Directional {
+        direction: direction([0.6, 0.0, -0.8]),
+        illuminance_lx: 1e5,
+        half_angle_rad: 0.0,
+    };
     // A roof over x < 0, a metre up: its shadow ends at x = 0.75.
     let roof = rectangle([-5.0, -5.0, 1.0], [5.0, 0.0, 0.0], [0.0, 10.0, 0.0], 0);
     let scene = over_floor(vec![roof], vec![luminaire(kind)]);

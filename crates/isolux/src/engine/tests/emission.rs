@@ -9,8 +9,11 @@ fn everything() -> Scene {
     let spot = IntensityDistribution::CosinePower { peak_cd: 200.0, exponent: 3.0 };
     let mut coloured = point([1.0, 0.0, 2.0], spot);
     coloured.colour = Rgb::new(2.0, 1.0, 0.0);
-    let sun =
-        LuminaireKind::Directional { direction: direction([0.0, 0.6, -0.8]), illuminance_lx: 5.0 };
+    let sun = LuminaireKind::Directional {
+        direction: direction([0.0, 0.6, -0.8]),
+        illuminance_lx: 5.0,
+        half_angle_rad: 0.0,
+    };
     scene(
         vec![
             rectangle([-2.0, -2.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], 0),

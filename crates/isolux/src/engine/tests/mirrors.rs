@@ -110,6 +110,7 @@ fn parallel_light_and_surfaces_have_images_too() {
     let kind = LuminaireKind::Directional {
         direction: direction([-0.6, 0.0, -0.8]),
         illuminance_lx: 1000.0,
+        half_angle_rad: 0.0,
     };
     let sunny = scene(vec![floor(), wall()], materials(), vec![luminaire(kind)]);
     // From x = 0.5 the image of the sun is seen at (0, 0, 0.67).

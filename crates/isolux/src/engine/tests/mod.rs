@@ -12,6 +12,7 @@ mod bright;
 mod carrying;
 mod coat;
 mod cuts;
+mod daylight;
 mod deposits;
 mod details;
 mod direct_light;

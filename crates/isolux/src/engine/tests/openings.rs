@@ -164,7 +164,8 @@ fn room_behind_slats(reflectance: f64) -> Scene {
     let both = |name: &str, rho: f64| Material::two_sided(name, Finish::diffuse(Rgb::grey(rho)));
     let materials = vec![both("yard", 0.2), both("room", reflectance), both("slat", 0.7)];
     let direction = direction([0.0, 0.6, -0.8]);
-    let kind = LuminaireKind::Directional { direction, illuminance_lx: 60_000.0 };
+    let kind =
+        LuminaireKind::Directional { direction, illuminance_lx: 60_000.0, half_angle_rad: 0.0 };
     scene(shapes, materials, vec![luminaire(kind)])
 }
 

@@ -1,16 +1,17 @@
-//! Search for the openings in front of emitting surfaces, by trial rays.
+//! Search for the openings in front of emitting surfaces and of skies, by trial rays.
 
 mod planes;
 mod seen;
 
+use super::far_sky::FarSky;
 use super::lighting::Lighting;
 use super::openings::{Before, Opening, Openings};
 use super::sample::area::Shape;
-use super::sources::{Emitter, SourceKind, Target};
+use super::sources::{Emitter, LuminaireId, Source, SourceKind, Target};
 use crate::ablation::without;
 use crate::elements::carries_map;
 use crate::engine::ray::{Dice, SurfacePoint};
-use crate::sampling::{Key, Sequence};
+use crate::sampling::{CosineHemisphere, Key, Sequence};
 use isolux_geometry::Point;
 use planes::{MOST_OPENINGS, Plane, Way, planes};
 use rayon::prelude::*;
@@ -23,6 +24,9 @@ const SEARCH_ROUNDS: [(usize, usize); 4] = [(64, 8), (512, 8), (4096, 8), (4096,
 
 /// The most triangles from which places are drawn; of more, every n-th triangle is used.
 const MOST_TRIANGLES: u32 = 1 << 20;
+
+/// Keeps the numbers of skies apart from those of surfaces.
+const SKIES: u64 = u64::MAX;
 
 /// The most trial rays for all emitters of a scene together.
 const MOST_TRIAL_RAYS: usize = 1 << 20;
@@ -54,22 +58,44 @@ const MOST_TELLING_PATHS: usize = 1024;
 const LEAST_FREE_SHARE: f64 = 0.1;
 
 impl Lighting<'_> {
-    /// The openings in front of all emitting surfaces. They depend on the scene alone.
+    /// The openings in front of all emitting surfaces and skies. They depend on the scene alone.
     pub(crate) fn look_out(&self) -> Openings {
+        let skies: Vec<(u32, &FarSky)> = self.skies().collect();
         let areas = self.scene.area_luminaires();
-        if areas.is_empty() || without("opening-search") {
+        if areas.is_empty() && skies.is_empty() {
             return Openings::default();
         }
         let surface = Surface::of(self);
-        let mut left = MOST_TRIAL_RAYS;
-        let before = |number: usize| {
+        let mut left = if without("opening-search") { 0 } else { MOST_TRIAL_RAYS };
+        let of_sky = |&(number, sky): &(u32, &FarSky)| {
+            let key = Key::new(u64::from(number)).with(SKIES);
+            let finder = Finder { lighting: self, sought: Sought::Sky(sky), key };
+            (number, finder.before_sky(&surface, sky, &mut left))
+        };
+        let of_skies = skies.iter().map(of_sky).collect();
+        if left == 0 {
+            return Openings::new(Vec::new(), of_skies);
+        }
+        let of_surface = |number: usize| {
             let source = &self.sources[self.starts[self.scene.luminaires().len() + number]];
             let SourceKind::Area { emitter, triangles } = &source.kind else { return None };
             let key = Key::new(number as u64);
-            let finder = Finder { lighting: self, emitter, triangles, key };
-            finder.before(&surface, areas[number].back, &mut left)
+            let sought = Sought::Surface { emitter, triangles };
+            let finder = Finder { lighting: self, sought, key };
+            finder.before(emitter, &surface, areas[number].back, &mut left)
         };
-        Openings::new((0..areas.len()).map(before).collect())
+        Openings::new((0..areas.len()).map(of_surface).collect(), of_skies)
+    }
+
+    /// The skies of the scene, without their images, by the number of the luminaire.
+    fn skies(&self) -> impl Iterator<Item = (u32, &FarSky)> {
+        let of = |source: &Source| source.chain.is_empty();
+        self.sources.iter().filter(move |source| of(source)).filter_map(|source| {
+            match (&source.kind, source.luminaire) {
+                (SourceKind::Sky(sky), LuminaireId::Luminaire(number)) => Some((number, sky)),
+                _ => None,
+            }
+        })
     }
 }
 
@@ -110,17 +136,28 @@ impl Surface {
     }
 }
 
+/// What openings are sought for.
+enum Sought<'a> {
+    Surface { emitter: &'a Emitter, triangles: &'a [[Point; 3]] },
+    Sky(&'a FarSky),
+}
+
 /// A search for openings in front of an emitter.
 struct Finder<'a> {
     lighting: &'a Lighting<'a>,
-    emitter: &'a Emitter,
-    triangles: &'a [[Point; 3]],
+    sought: Sought<'a>,
     key: Key,
 }
 
 impl Finder<'_> {
     /// The openings in front of the emitter; `None` where they are of no use.
-    fn before(&self, surface: &Surface, back: bool, left: &mut usize) -> Option<Before> {
+    fn before(
+        &self,
+        emitter: &Emitter,
+        surface: &Surface,
+        back: bool,
+        left: &mut usize,
+    ) -> Option<Before> {
         if surface.sides.is_empty() {
             return None;
         }
@@ -133,13 +170,35 @@ impl Finder<'_> {
         let first = self.looks(surface, 0, left)?;
         let surrounds = first.len() == SEARCH_ROUNDS[0].0
             && first.iter().all(|l| l.whole >= SURROUNDING_SHARE * PI);
-        let mut before = Before::new(self.emitter.indices.clone(), back, surrounds);
+        let before = Before::surface(emitter.indices.clone(), back, surrounds);
+        let before = self.with_openings(before, first, surface, left);
+        (surrounds || before.zones.are_some()).then_some(before)
+    }
+
+    /// The openings in front of a sky, or none where they are of no use.
+    fn before_sky(&self, surface: &Surface, sky: &FarSky, left: &mut usize) -> Before {
+        let before = Before::sky(sky.clone());
+        let first = (!surface.sides.is_empty()).then(|| self.looks(surface, 0, left)).flatten();
+        match first {
+            Some(first) => self.with_openings(before, first, surface, left),
+            None => before,
+        }
+    }
+
+    /// The emitter with the openings in front of it, if there are any.
+    fn with_openings(
+        &self,
+        mut before: Before,
+        first: Vec<Looked>,
+        surface: &Surface,
+        left: &mut usize,
+    ) -> Before {
         if let Some(looked) = self.ways(first, surface, left) {
             before.openings = self.openings(&looked);
             let key = self.key.with(u64::MAX);
             before.zones = ThroughOpenings::of(self.lighting, &before, &looked, key).zones();
         }
-        (surrounds || before.zones.are_some()).then_some(before)
+        before
     }
 
     /// The places of a round with their trial rays. `None` after the last round, or if all emitters
@@ -188,19 +247,57 @@ impl Finder<'_> {
     fn looked(&self, surface: &Surface, (k, looks): (usize, usize), key: Key) -> Option<Looked> {
         let mut dice = Dice::new(Sequence::new(key), k as u32);
         let at = surface.place(self.lighting, k, &mut dice);
-        let shape = Shape::new(&at, (self.emitter, self.triangles), looks.max(1))?;
         let sequence = dice.fork();
-        let mut found =
-            Looked { at, whole: shape.whole(), looks, free: Vec::new(), stopped: Vec::new() };
-        for k in 0..looks {
-            let place = shape.place(&mut Dice::new(sequence, k as u32));
-            let Some(place) = place else { continue };
-            let triangle = Some(self.emitter.indices[place.triangle]);
+        let dice = (0..looks).map(|k| Dice::new(sequence, k as u32));
+        match self.sought {
+            Sought::Surface { emitter, triangles } => {
+                self.looked_at_surface(&at, (emitter, triangles), looks, dice)
+            }
+            Sought::Sky(sky) => Some(self.looked_at_sky(&at, sky, looks, dice)),
+        }
+    }
+
+    fn looked_at_surface(
+        &self,
+        at: &SurfacePoint,
+        (emitter, triangles): (&Emitter, &[[Point; 3]]),
+        looks: usize,
+        dice: impl Iterator<Item = Dice>,
+    ) -> Option<Looked> {
+        let shape = Shape::new(at, (emitter, triangles), looks.max(1))?;
+        let mut found = Looked::nothing(at, shape.whole(), looks);
+        for place in dice.filter_map(|mut dice| shape.place(&mut dice)) {
+            let triangle = Some(emitter.indices[place.triangle]);
             let target = Target::Point(place.point);
-            let is_free = !self.lighting.visibility(&[], &at, target, triangle).is_black();
+            let is_free = !self.lighting.visibility(&[], at, target, triangle).is_black();
             if is_free { &mut found.free } else { &mut found.stopped }.push(place.point);
         }
         Some(found)
+    }
+
+    /// Looks at the sky over the hemisphere. Where it is dark there is nothing to see, free or not.
+    fn looked_at_sky(
+        &self,
+        at: &SurfacePoint,
+        sky: &FarSky,
+        looks: usize,
+        dice: impl Iterator<Item = Dice>,
+    ) -> Looked {
+        let bounds = self.lighting.scene.bvh().mesh().bounds();
+        let beyond_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
+        let mut found = Looked::nothing(at, PI, looks);
+        for mut dice in dice {
+            let local = CosineHemisphere::sample(dice.pair());
+            let towards = at.shading.to_direction().from_local(local);
+            if sky.luminance_cd_m2(towards).is_black() {
+                continue;
+            }
+            let target = Target::Infinity(towards);
+            let is_free = !self.lighting.visibility(&[], at, target, None).is_black();
+            let ways = if is_free { &mut found.free } else { &mut found.stopped };
+            ways.push(at.point + towards * beyond_m);
+        }
+        found
     }
 
     /// Openings found from free and blocked paths between dark places and the emitter.

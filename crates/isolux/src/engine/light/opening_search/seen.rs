@@ -33,6 +33,10 @@ pub(super) struct Looked {
 }
 
 impl Looked {
+    pub(super) fn nothing(at: &SurfacePoint, whole: f64, looks: usize) -> Self {
+        Self { at: *at, whole, looks, free: Vec::new(), stopped: Vec::new() }
+    }
+
     pub(super) fn is_dark(&self) -> bool {
         self.free.len() as f64 <= DARK_FREE_SHARE * self.looks as f64
     }

@@ -1,11 +1,14 @@
-//! Tests with a room below a sky: its direct light is that of its windows.
+//! Tests with a room below a sky, a box that shines inwards or one infinitely far away: its direct light is that of its windows.
 
 use super::super::lighting::Lighting;
 use super::super::polygon::steradians;
 use super::*;
 use crate::engine::tests::{glowing, inward_box, rectangle, scene};
+use crate::photometry::{GeneralSky, Sky, SkyPicture};
 use crate::sampling::{Key, Sequence};
-use crate::scene::{Finish, Material, Scene, Shape};
+use crate::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, Shape};
+use isolux_geometry::Transform;
+use std::sync::Arc;
 
 const SKY_CD_M2: f64 = 4000.0;
 
@@ -46,8 +49,29 @@ fn wall(
     shapes
 }
 
-/// A room of 4 x 5 x 3 m with two windows and a skylight, below a sky all around.
+/// A room of 4 x 5 x 3 m with two windows and a skylight, below a sky all around that is a box.
 fn room() -> Scene {
+    let mut shapes = walls();
+    shapes.push(sky());
+    scene(shapes, vec![wall_paint(), glowing(SKY_CD_M2)], vec![])
+}
+
+/// The same below a sky that is infinitely far away.
+fn room_below(sky: Sky) -> Scene {
+    let kind = LuminaireKind::Sky { world_from_sky: Transform::IDENTITY, sky };
+    let sky = Luminaire { name: "sky".into(), group: 0, colour: Rgb::WHITE, kind };
+    scene(walls(), vec![wall_paint()], vec![sky])
+}
+
+fn uniform() -> Sky {
+    Sky::General { sky: GeneralSky::uniform(SKY_CD_M2), ground_cd_m2: SKY_CD_M2 }
+}
+
+fn wall_paint() -> Material {
+    Material::two_sided("wall", Finish::diffuse(Rgb::grey(0.5)))
+}
+
+fn walls() -> Vec<Shape> {
     let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let windows = [[0.5, 1.7, 0.9, 2.1], [2.2, 3.4, 0.9, 2.1]];
     let mut shapes = wall([0.0; 3], [x, z], [4.0, 3.0], &windows, 0);
@@ -56,9 +80,7 @@ fn room() -> Scene {
     shapes.extend(wall([0.0; 3], [y, z], [5.0, 3.0], &[], 0));
     shapes.extend(wall([4.0, 0.0, 0.0], [y, z], [5.0, 3.0], &[], 0));
     shapes.extend(wall([0.0, 5.0, 0.0], [x, z], [4.0, 3.0], &[], 0));
-    shapes.push(sky());
-    let wall = Material::two_sided("wall", Finish::diffuse(Rgb::grey(0.5)));
-    scene(shapes, vec![wall, glowing(SKY_CD_M2)], vec![])
+    shapes
 }
 
 /// A cube of 160 m that emits inwards, in one piece.
@@ -118,7 +140,14 @@ fn by_one_ray(lighting: &Lighting, at: &SurfacePoint, seed: u64) -> [f64; 2] {
 fn windows_are_found_where_they_are() {
     let scene = room();
     let lighting = Lighting::new(&scene);
-    let before = lighting.openings.0[0].as_ref().unwrap();
+    check_openings(lighting.openings.surfaces[0].as_ref().unwrap());
+    let scene = room_below(uniform());
+    let lighting = Lighting::new(&scene);
+    check_openings(&lighting.openings.skies[0].1);
+}
+
+/// Whether they are the windows and the skylight.
+fn check_openings(before: &Before) {
     assert!(before.surrounds);
     let mut found: Vec<_> = before
         .openings
@@ -148,24 +177,79 @@ fn windows_are_found_where_they_are() {
 #[test]
 fn light_through_windows_is_exact_with_little_noise() {
     let scene = room();
-    let lighting = Lighting::new(&scene);
     let mut without = Lighting::new(&scene);
     without.openings = Openings::default();
+    check_windows(&scene, &without, windows_lx, 0.05);
+}
+
+#[test]
+fn light_of_skies_through_windows_is_exact_with_little_noise() {
+    let sun = Vector::new(-0.5, -0.4, 0.5).direction().unwrap();
+    let clear = GeneralSky::cie(12, sun).unwrap().with_horizontal_lx(1e4).unwrap();
+    let clear = Sky::General { sky: clear, ground_cd_m2: 600.0 };
+    // A hundredth of the sky is a hundred times as bright as the rest: it has rays of its own.
+    let mut rgb_cd_m2 = vec![[1000.0; 3]; 16 * 32];
+    rgb_cd_m2[4 * 32 + 17] = [1e5; 3];
+    rgb_cd_m2[12 * 32 + 17] = [1e5; 3];
+    let picture = Sky::Picture(Arc::new(SkyPicture { width: 32, height: 16, rgb_cd_m2 }));
+    for (sky, spread) in [(uniform(), 0.05), (clear, 0.3), (picture, 1.5)] {
+        let scene = room_below(sky.clone());
+        let mut without = Lighting::new(&scene);
+        let LuminaireKind::Sky { sky: of, .. } = &scene.luminaires()[0].kind else { panic!() };
+        let far = FarSky::new(of, Transform::IDENTITY);
+        without.openings = Openings::new(Vec::new(), vec![(0, Before::sky(far))]);
+        check_windows(&scene, &without, |at| sky_through_windows_lx(at, &sky), spread);
+    }
+}
+
+/// Illuminance from the windows, by the middles of many small parts of them, lx.
+fn sky_through_windows_lx(at: &SurfacePoint, sky: &Sky) -> f64 {
+    const STEPS: usize = 300;
+    let window = |corner: [f64; 3], sides: [[f64; 3]; 2]| {
+        let [u, v] = sides.map(Vector::from);
+        let normal = u.cross(v).normal().unwrap();
+        let part_m2 = u.cross(v).length() / (STEPS * STEPS) as f64;
+        let one = |k: usize| {
+            let share = |k: usize| (k as f64 + 0.5) / STEPS as f64;
+            let place = Point::from(corner) + u * share(k % STEPS) + v * share(k / STEPS);
+            let way = place - at.point;
+            let towards = way.direction().unwrap();
+            let cos = facing_cos(towards, at.shading, at.geometric).unwrap_or(0.0);
+            let sr = part_m2 * towards.cos(normal).abs() / way.length_squared();
+            sky.luminance_cd_m2(towards).luminance() * cos * sr
+        };
+        (0..STEPS * STEPS).map(one).sum::<f64>()
+    };
+    let [x, z] = [[1.2, 0.0, 0.0], [0.0, 0.0, 1.2]];
+    window([0.5, 0.0, 0.9], [x, z])
+        + window([2.2, 0.0, 0.9], [x, z])
+        + window([1.5, 3.0, 3.0], [[0.5, 0.0, 0.0], [0.0, 1.0, 0.0]])
+}
+
+/// Whether light is the exact one, and rays through openings have less noise than those without. `allowed` is the relative
+/// deviation of sixty-four rays.
+fn check_windows(
+    scene: &Scene,
+    without: &Lighting,
+    exact_lx: impl Fn(&SurfacePoint) -> f64,
+    allowed: f64,
+) {
+    let lighting = Lighting::new(scene);
     let [mut compared, mut spread, mut usual] = [0.0; 3];
-    for (k, at) in places(&scene, true).iter().enumerate() {
-        let exact = windows_lx(at);
+    for (k, at) in places(scene, true).iter().enumerate() {
+        let exact = exact_lx(at);
         if exact < 1.0 {
             continue;
         }
         let [mean, variance] = by_one_ray(&lighting, at, k as u64);
         let error = (variance / f64::from(RAYS)).sqrt();
         assert!((mean - exact).abs() < SIGMAS * error, "{k}: {mean} +- {error}, not {exact}");
-        // A quarter of the rays is spread over the hemisphere; the rest share the openings, whose luminance is uniform.
+        // A quarter of the rays is spread over the hemisphere; the rest share the openings.
         let lx = lighting.illuminance(at, &mut Dice::new(Sequence::new(Key::new(k as u64)), 0));
-        assert!((lx.luminance() / exact - 1.0).abs() < 0.05, "{k}: {lx:?}, not {exact}");
+        assert!((lx.luminance() / exact - 1.0).abs() < allowed, "{k}: {lx:?}, not {exact}");
         compared += 1.0;
         spread += variance / (exact * exact);
-        let [_, variance] = by_one_ray(&without, at, k as u64);
+        let [_, variance] = by_one_ray(without, at, k as u64);
         usual += variance / (exact * exact);
     }
     assert!(compared > 20.0, "{compared}");
@@ -195,5 +279,5 @@ fn what_is_seen_from_everywhere_has_no_openings() {
     shapes.push(rectangle([0.2, 0.2, 2.9], [0.0, 4.6, 0.0], [3.6, 0.0, 0.0], 1));
     let wall = Material::two_sided("wall", Finish::diffuse(Rgb::grey(0.5)));
     let scene = scene(shapes, vec![wall, glowing(SKY_CD_M2)], vec![]);
-    assert!(Lighting::new(&scene).openings.0.iter().all(Option::is_none));
+    assert!(Lighting::new(&scene).openings.surfaces.iter().all(Option::is_none));
 }

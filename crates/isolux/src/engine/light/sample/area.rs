@@ -146,7 +146,7 @@ impl Lighting<'_> {
         let AreaSource { source, emitter, triangles } = surface;
         if let Some(view) = self.openings.view(source, at) {
             let seen = |direction| self.seen_along(&view, direction);
-            return source.colour * view.steradians(samples, dice, seen);
+            return source.colour * view.steradians(samples, dice, None, seen);
         }
         let seen = |place: &Place| {
             let index = emitter.indices[place.triangle];

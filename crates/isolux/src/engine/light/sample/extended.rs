@@ -3,6 +3,7 @@
 use super::super::lighting::Lighting;
 use super::super::sources::Source;
 use super::area::AreaSource;
+use super::far::Disc;
 use super::luminous::LuminousSource;
 use super::measured::{Measured, REPLICATES, STUDENT_FACTOR};
 use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
@@ -68,7 +69,7 @@ impl Lighting<'_> {
         }
         let samples = samples as f64 * f64::from(REPLICATES);
         let unseen_lx = match self.openings.view(source, at) {
-            Some(view) => source.colour.luminance() * view.unseen(samples),
+            Some(view) => source.mean_cd_m2() * view.unseen(samples),
             None => self.unhidden_lx(source, at, &mut Dice::new(of_looks, 0)) / samples,
         };
         Measured { lx, variance: unseen_lx * unseen_lx }
@@ -79,7 +80,7 @@ impl Lighting<'_> {
         match (AreaSource::of(source), LuminousSource::of(source)) {
             (Some(surface), _) => surface.unhidden_lx(at, dice),
             (None, Some(luminous)) => self.unhidden(luminous, at).luminance(),
-            (None, None) => 0.0,
+            (None, None) => Disc::of(source).map_or(0.0, |disc| disc.unhidden_lx(at)),
         }
     }
 }

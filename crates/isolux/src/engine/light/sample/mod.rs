@@ -5,6 +5,7 @@ pub(super) mod area;
 mod clusters;
 mod estimate;
 mod extended;
+mod far;
 pub(super) mod luminous;
 mod many;
 pub(super) mod measured;

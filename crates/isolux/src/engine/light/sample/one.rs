@@ -2,8 +2,9 @@
 
 use super::super::lighting::Lighting;
 use super::super::sources;
-use super::super::sources::{Source, Target};
+use super::super::sources::{Source, SourceKind, Target};
 use super::area::AreaSource;
+use super::far::{Disc, SkySource};
 use super::luminous::LuminousSource;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
@@ -21,6 +22,10 @@ impl Lighting<'_> {
             self.lit_by_area(surface, at, samples, dice)
         } else if let Some(luminous) = LuminousSource::of(source) {
             self.lit_by_luminous(luminous, at, samples, dice)
+        } else if let Some(sky) = SkySource::of(source) {
+            self.lit_by_sky(sky, at, samples, dice)
+        } else if let Some(disc) = Disc::of(source) {
+            self.lit_by_disc(disc, at, samples, dice)
         } else {
             self.lit_by_point(source, at)
         }
@@ -50,7 +55,7 @@ impl Lighting<'_> {
         self.sources.iter().map(|s| self.lit_by(s, at, samples, dice)).sum()
     }
 
-    /// Calls `found` for every point luminaire, every image of one, and one place of every image of a luminous area,
+    /// Calls `found` for every point luminaire, every image of one, every sun, and one place of every image of a luminous area,
     /// whose light reaches a place. It receives the direction to the source, and the illuminance of a surface that
     /// faces it.
     pub(crate) fn points_at(
@@ -59,7 +64,11 @@ impl Lighting<'_> {
         dice: &mut Dice,
         mut found: impl FnMut(Direction, Rgb),
     ) {
-        let is_told = |s: &&Source| !s.has_extent() || !s.is_area() && !s.chain.is_empty();
+        let is_told = |s: &&Source| match s.kind {
+            SourceKind::Sky(_) | SourceKind::Area { .. } => false,
+            SourceKind::Directional { .. } => true,
+            SourceKind::Point { .. } => !s.has_extent() || !s.chain.is_empty(),
+        };
         for source in self.sources.iter().filter(is_told) {
             let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
             let arriving = match LuminousSource::of(source) {

@@ -74,6 +74,7 @@ impl Lighting<'_> {
         let triangles = |source: &Source| AreaSource::of(source).map_or(0, AreaSource::count);
         self.points <= MOST_POINTS
             && !self.openings.exist()
+            && !self.sources.iter().any(Source::is_far_extent)
             && self.sources.iter().map(triangles).sum::<usize>() <= MOST_TRIANGLES
     }
 

@@ -4,6 +4,7 @@ pub(super) mod facets;
 pub(super) mod triangle_lamps;
 pub(super) mod triangle_tree;
 
+use super::far_sky::FarSky;
 use super::mirrors::planar::{MAX_CHAIN_MIRRORS, MAX_CHAINS, Mirrors};
 use crate::engine::ray::SurfacePoint;
 use crate::photometry::IntensityDistribution;
@@ -40,8 +41,10 @@ pub(crate) enum SourceKind {
     /// A point or a luminous area about it; `local_from_world` is linear and orthogonal (a mirror image is
     /// left-handed).
     Point { luminaire: u32, position: Point, local_from_world: Transform, area: Option<Luminous> },
-    /// Parallel light.
-    Directional { towards: Direction, illuminance_lx: f64 },
+    /// Parallel light, or that of a disc, which is seen under twice this angle.
+    Directional { towards: Direction, illuminance_lx: f64, half_angle_rad: f64 },
+    /// Light from all around.
+    Sky(FarSky),
     /// Emitting triangles, reflected by the chain, their emitting side counter-clockwise.
     Area { emitter: Emitter, triangles: Vec<[Point; 3]> },
 }
@@ -150,6 +153,14 @@ impl Sources {
 }
 
 impl Source {
+    /// Its mean luminance, photometric, cd/m2: for emitting surfaces and skies.
+    pub(crate) fn mean_cd_m2(&self) -> f64 {
+        match &self.kind {
+            SourceKind::Sky(sky) => self.colour.luminance() * sky.mean_cd_m2(),
+            _ => self.colour.luminance(),
+        }
+    }
+
     /// Whether the source is an emitting surface.
     pub(crate) const fn is_area(&self) -> bool {
         matches!(self.kind, SourceKind::Area { .. })
@@ -157,7 +168,18 @@ impl Source {
 
     /// Whether the source has an extent: one shadow ray does not tell how much of it is hidden.
     pub(crate) const fn has_extent(&self) -> bool {
-        matches!(self.kind, SourceKind::Area { .. } | SourceKind::Point { area: Some(_), .. })
+        match &self.kind {
+            SourceKind::Area { .. } | SourceKind::Point { area: Some(_), .. } => true,
+            SourceKind::Directional { half_angle_rad, .. } => *half_angle_rad > 0.0,
+            SourceKind::Sky(_) => true,
+            SourceKind::Point { area: None, .. } => false,
+        }
+    }
+
+    /// Whether the source has an extent and is infinitely far away.
+    pub(crate) const fn is_far_extent(&self) -> bool {
+        let is_far = matches!(self.kind, SourceKind::Directional { .. } | SourceKind::Sky(_));
+        is_far && self.has_extent()
     }
 }
 
@@ -174,12 +196,16 @@ fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
                 SourceKind::Point {
                     luminaire: index as u32,
                     position: *position,
-                    local_from_world: transposed(world_from_luminaire),
+                    local_from_world: inverse_of_rotation(world_from_luminaire),
                     area: area.map(|area| Luminous::of(area, intensity)),
                 }
             }
-            LuminaireKind::Directional { direction, illuminance_lx } => {
-                SourceKind::Directional { towards: -*direction, illuminance_lx: *illuminance_lx }
+            LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad } => {
+                let (illuminance_lx, half_angle_rad) = (*illuminance_lx, *half_angle_rad);
+                SourceKind::Directional { towards: -*direction, illuminance_lx, half_angle_rad }
+            }
+            LuminaireKind::Sky { world_from_sky, sky } => {
+                SourceKind::Sky(FarSky::new(sky, inverse_of_rotation(world_from_sky)))
             }
         };
         let luminaire_id = LuminaireId::Luminaire(index as u32);
@@ -239,11 +265,16 @@ fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
                 area: *area,
             })
         }
-        SourceKind::Directional { towards, illuminance_lx } => (towards.cos(mirror.normal) > 0.0)
-            .then(|| SourceKind::Directional {
+        SourceKind::Directional { towards, illuminance_lx, half_angle_rad } => {
+            // A disc shines on the mirror until it has set.
+            let is_up = towards.cos(mirror.normal) > -libm::sin(*half_angle_rad);
+            is_up.then(|| SourceKind::Directional {
                 towards: towards.reflect(mirror.normal),
                 illuminance_lx: *illuminance_lx,
-            }),
+                half_angle_rad: *half_angle_rad,
+            })
+        }
+        SourceKind::Sky(sky) => Some(SourceKind::Sky(sky.image(|axis| mirror.image_vector(axis)))),
         SourceKind::Area { emitter, triangles } => {
             // Triangles behind the mirror have no image. Those that cross its plane are kept whole:
             // a ray to the part behind does not meet the mirror before the image.
@@ -265,7 +296,7 @@ fn chain_reflectance(source: &Source, mirrors: &Mirrors) -> f64 {
 }
 
 /// Inverse of a rotation: its linear part transposed.
-fn transposed(rotation: &Transform) -> Transform {
+pub(crate) fn inverse_of_rotation(rotation: &Transform) -> Transform {
     let [a, b, c] = rotation.columns;
     let row = |k: usize| Vector::new(a.component(k), b.component(k), c.component(k));
     Transform { columns: [row(0), row(1), row(2)], translation: Vector::ZERO }
@@ -298,7 +329,7 @@ pub(crate) fn unoccluded_from(
     let (towards, target) = match &source.kind {
         SourceKind::Point { .. } => ((place - at.point).direction()?, Target::Point(place)),
         SourceKind::Directional { towards, .. } => (*towards, Target::Infinity(*towards)),
-        SourceKind::Area { .. } => return None,
+        SourceKind::Area { .. } | SourceKind::Sky(_) => return None,
     };
     let cos = facing_cos(towards, at.shading, at.geometric)?;
     if !is_in_view(target) {
@@ -311,7 +342,7 @@ pub(crate) fn unoccluded_from(
             candela / (place - at.point).length_squared()
         }
         SourceKind::Directional { illuminance_lx, .. } => *illuminance_lx,
-        SourceKind::Area { .. } => return None,
+        SourceKind::Area { .. } | SourceKind::Sky(_) => return None,
     };
     let illuminance_lx = source.colour * (lx * cos);
     (!illuminance_lx.is_black()).then_some(Arriving { illuminance_lx, target })
@@ -327,7 +358,7 @@ pub(crate) fn facing_cos(towards: Direction, shading: Normal, geometric: Normal)
 pub(crate) fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution {
     match &scene.luminaires()[luminaire as usize].kind {
         LuminaireKind::Point { intensity, .. } => intensity,
-        LuminaireKind::Directional { .. } => {
+        LuminaireKind::Directional { .. } | LuminaireKind::Sky { .. } => {
             unreachable!("sources of points are made from points")
         }
     }
@@ -346,6 +377,14 @@ pub(crate) fn importance(
             let area_m2 = emitter.area_m2;
             let distance_squared = (emitter.centre - at.point).length_squared();
             source.colour.luminance() * area_m2 / (distance_squared + area_m2)
+        }
+        SourceKind::Sky(sky) => source.colour.luminance() * sky.mean_cd_m2(),
+        SourceKind::Directional { towards, illuminance_lx, half_angle_rad }
+            if *half_angle_rad > 0.0 =>
+        {
+            // Where the middle of the disc has set, a part may be up.
+            let cos = towards.cos(at.shading) + libm::sin(*half_angle_rad);
+            source.colour.luminance() * illuminance_lx * cos.max(0.0)
         }
         SourceKind::Point { position, area: Some(area), .. } => {
             let middle = unoccluded_if(scene, source, at, |_| true)

@@ -7,7 +7,7 @@ use self::straight::last_segment;
 use self::straight::segment;
 use super::lighting::Lighting;
 use super::mirrors::chains::Chain;
-use super::openings::View;
+use super::openings::{Beyond, View};
 use super::sources::Target;
 use crate::engine::ray::SurfacePoint;
 use crate::units::Rgb;
@@ -90,8 +90,14 @@ impl Lighting<'_> {
     }
 
     /// The share of an emitter's light that arrives along a direction, through thin panes; zero if
-    /// another surface comes first.
+    /// another surface comes first, or where a sky is dark.
     pub(crate) fn seen_along(&self, view: &View<'_>, direction: Direction) -> Rgb {
+        if let Beyond::Sky(sky) = &view.before.beyond {
+            let shines = !sky.luminance_cd_m2(direction).is_black();
+            let target = Target::Infinity(direction);
+            let share = || self.visibility(&[], &view.at, target, None);
+            return if shines { share() } else { Rgb::BLACK };
+        }
         // Without panes the triangle and side of the hit are enough.
         let met = if self.panes.exist() {
             let met = self.first_opaque(&view.at, direction);

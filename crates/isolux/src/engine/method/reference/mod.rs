@@ -8,11 +8,12 @@
 //! every place of a path, and weighted against random hits by the balance heuristic (Veach and Guibas 1995).
 //!
 //! Light by way of glass, gloss and curved mirrors has no virtual luminaires. That of emitting surfaces is
-//! found by random hits. That of luminaires without surface is found by particles, whose first diffuse
+//! found by random hits, and that of skies by paths that leave the scene. That of other luminaires without surface is found by particles, whose first diffuse
 //! surface is connected to every place of a path. No map and no elements are used, so the only bias is the
 //! light left out: such light of luminaires without surface on the place itself, which no path can meet, and
 //! paths over more than 128 specular surfaces in a row.
 
+mod daylight;
 mod paths;
 
 use crate::elements::carries_map;
@@ -24,6 +25,7 @@ use crate::map::{Illuminance, Standing};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
+pub use daylight::{Coefficients, Daylight};
 pub use paths::PathTracer;
 use rayon::prelude::*;
 use std::collections::HashMap;

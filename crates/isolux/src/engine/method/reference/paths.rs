@@ -1,14 +1,14 @@
 //! Single paths of the path tracer.
 
 use crate::engine::gather::Gatherer;
-use crate::engine::light::{Emission, Lighting, LuminaireId, MirrorChain, Particle};
+use crate::engine::light::{Emission, Emitted, Lighting, LuminaireId, MirrorChain, Particle};
 use crate::engine::ray::{
     Dice, MAX_SPECULAR, Places, SurfacePoint, luminance_ratio, specular_step,
 };
 use crate::sampling::{CosineHemisphere, Key, Sequence};
-use crate::scene::{Body, Finish, Scene};
+use crate::scene::{Body, Finish, LuminaireKind, Scene};
 use crate::units::Rgb;
-use isolux_geometry::Ray;
+use isolux_geometry::{Direction, Ray};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::ops::AddAssign;
@@ -81,7 +81,17 @@ struct Found {
     ends: Vec<End>,
     /// The light of emitting surfaces without virtual luminaires, as illuminance at the start of the ray, lx.
     shining: Rgb,
+    /// Where the path has left the scene over specular surfaces.
+    left: Option<Left>,
     rays: u64,
+}
+
+/// A path that leaves the scene over specular surfaces.
+struct Left {
+    direction: Direction,
+    /// The illuminance at the start of the ray for every cd/m2 in that direction, lx.
+    share: Rgb,
+    chain: MirrorChain,
 }
 
 impl PathTracer<'_> {
@@ -114,8 +124,9 @@ impl PathTracer<'_> {
                 light.indirect += throughput * sent;
                 rays += flown;
             }
-            let found = self.follow(&from, dice);
+            let mut found = self.follow(&from, dice);
             rays += found.rays;
+            found.shining += found.left.take().map_or(Rgb::BLACK, |left| self.beyond_lx(&left));
             match is_first {
                 // Where caustics of luminaires without surface are left out, those of emitting surfaces are
                 // left out of the place itself, too.
@@ -169,7 +180,8 @@ impl PathTracer<'_> {
     ) -> (Rgb, u64) {
         let own = Dice::new(dice.fork(), 0);
         let mut own = own;
-        let Some(emitted) = senders.emit(&mut own).filter(|sent| !sent.is_of_surface()) else {
+        let is_sought = |sent: &Emitted| !sent.is_of_surface() && !self.is_of_sky(sent);
+        let Some(emitted) = senders.emit(&mut own).filter(is_sought) else {
             return (Rgb::BLACK, 0);
         };
         let mut particle = Particle::sent(&emitted, senders.flux_lm(), own, MAX_SPECULAR);
@@ -188,6 +200,56 @@ impl PathTracer<'_> {
             rays += 1;
         }
         (light, rays)
+    }
+
+    /// The light of skies at the end of a path over specular surfaces, unless that is direct light, lx.
+    fn beyond_lx(&self, left: &Left) -> Rgb {
+        let skies = (0..).zip(self.scene.luminaires()).filter_map(|(number, luminaire)| {
+            let cd_m2 = luminaire.sky_cd_m2(left.direction)?;
+            (!self.is_covered(left, number)).then_some(cd_m2)
+        });
+        left.share * skies.sum::<Rgb>()
+    }
+
+    /// Whether the light of a luminaire along such a path is direct light.
+    fn is_covered(&self, left: &Left, luminaire: u32) -> bool {
+        left.chain.is_covered_backwards(&self.lighting, LuminaireId::Luminaire(luminaire))
+    }
+
+    /// One path from a place to a sky. `found` receives directions in the frame of the sky, and the illuminance of the place for
+    /// every cd/m2 there, lx. Light that comes straight or by planar mirrors is left out.
+    pub(super) fn path_to_sky(
+        &self,
+        (sky, local): (u32, &impl Fn(Direction) -> Option<Direction>),
+        start: Gatherer,
+        dice: &mut Dice,
+        found: &mut impl FnMut(Direction, Rgb),
+    ) {
+        let mut waiting = vec![(start, Rgb::WHITE)];
+        while let Some((from, throughput)) = waiting.pop() {
+            let Found { ends, left, .. } = self.follow(&from, dice);
+            let left = left.filter(|left| !self.is_covered(left, sky));
+            if let Some((left, towards)) = left.and_then(|l| Some((local(l.direction)?, l.share))) {
+                found(left, throughput * towards);
+            }
+            for End { surface, share, .. } in ends {
+                let throughput = throughput * share;
+                self.lighting.sky_rays(sky, &surface, 1, dice, |towards, share| {
+                    found(towards, throughput * share);
+                });
+                let chance = throughput.max_channel().min(MOST_LIKELY);
+                let [survive, _] = dice.pair();
+                if survive < chance {
+                    waiting.push((Gatherer::on_surface(surface, 1), throughput / chance));
+                }
+            }
+        }
+    }
+
+    /// Whether a particle comes from a sky, which paths meet where they leave the scene.
+    fn is_of_sky(&self, sent: &Emitted) -> bool {
+        let LuminaireId::Luminaire(number) = sent.luminaire else { return false };
+        matches!(self.scene.luminaires()[number as usize].kind, LuminaireKind::Sky { .. })
     }
 
     /// The density of a cosine-distributed ray at a visible place, 1/m2; zero if the place is hidden or
@@ -212,7 +274,11 @@ impl PathTracer<'_> {
         // roulette must not end paths in a dense medium, which they may leave again.
         let (mut throughput, mut luminance_of_start) = (Rgb::WHITE, 1.0);
         for number in 0..MAX_SPECULAR {
-            let Some(at) = hit else { break };
+            let Some(at) = hit else {
+                let share = throughput * luminance_of_start * PI;
+                found.left = (number > 0).then_some(Left { direction, share, chain });
+                break;
+            };
             let surface = SurfacePoint::from_hit(self.scene, &at);
             let body = &self.scene.material(at.triangle).body;
             if let Body::Opaque { front, back } = body {

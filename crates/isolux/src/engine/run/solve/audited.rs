@@ -67,7 +67,8 @@ impl Run<'_, '_> {
             number: self.audited.audits + 1,
             ..AuditSettings::default()
         };
-        let mut audit = audit_with((self.scene, &map), (Arc::clone(lighting), bright), &settings)?;
+        let prepared = (Arc::clone(lighting), bright);
+        let mut audit = audit_with((self.scene, &map), prepared, (&settings, &mut |_: f64| {}))?;
         audit.trust.trend = trend(&self.audited.noise);
         Some(audit)
     }

@@ -1,0 +1,2 @@
+#![no_main]
+isolux_fuzz::target!("hdr");
