@@ -22,6 +22,7 @@ mod named_files;
 mod parse;
 mod reader;
 mod record;
+mod seams;
 mod skies;
 mod sky_commands;
 mod sky_function;

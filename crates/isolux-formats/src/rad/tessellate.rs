@@ -1,6 +1,7 @@
 //! Surfaces as triangles, in the coordinates of their file.
 
 use super::record::Object;
+use super::seams::with_holes;
 use crate::polygon::{self, MOST_CORNERS};
 use crate::round::{inside_out, sincos_of_turn, turn_inside_out, unit_sphere};
 use isolux::geometry::{Direction, Point, Vector};
@@ -54,7 +55,7 @@ fn face(numbers: &[f64]) -> Result<Tessellated, String> {
     if positions.first() == positions.last() {
         positions.pop();
     }
-    let corners: Vec<Point> = positions.iter().copied().map(Point::from).collect();
+    let corners = with_holes(positions.into_iter().map(Point::from).collect());
     let cut = polygon::triangulate(&corners);
     let oddity = if cut.triangles.is_empty() {
         Some(("the polygon has no area and is left out", "remove it"))
@@ -64,6 +65,7 @@ fn face(numbers: &[f64]) -> Result<Tessellated, String> {
         None
     };
     let triangles = cut.triangles.iter().map(|t| t.map(|k| k as u32)).collect();
+    let positions = corners.into_iter().map(Into::into).collect();
     Ok(Tessellated { shape: Shape { positions, triangles, ..Shape::default() }, oddity })
 }
 
