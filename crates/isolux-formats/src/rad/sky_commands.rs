@@ -15,8 +15,8 @@ const SUN_SR: [f64; 3] = [6e-5, 5.98e-5, 6.8e-5];
 /// Full angles of the suns of both.
 const GENSKY_SUN_DEG: f64 = 0.5;
 const GENDAYLIT_SUN_DEG: f64 = 0.533;
-/// The day that gendaylit counts where the sun is given by angles.
-const USUAL_DAY: u16 = 150;
+/// The day that gendaylit counts where the sun is given by angles: its brightness is that of early January (a table in the core compares).
+const USUAL_DAY: u16 = 1;
 /// The dew point of two centimetres of water in the air, which gendaylit takes.
 const DEW_POINT_C: f64 = 10.973_53;
 
