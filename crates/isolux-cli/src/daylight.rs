@@ -4,7 +4,7 @@ use crate::quantity::significant;
 use crate::shown::name;
 use isolux::geometry::{Direction, Vector};
 use isolux::photometry::Sky;
-use isolux::scene::{LuminaireKind, Scene, UpAxis};
+use isolux::scene::{LuminaireKind, Scene, world_from_sky};
 use serde::Serialize;
 
 /// A sky.
@@ -84,11 +84,7 @@ fn frame(scene: &Scene) -> [Vector; 3] {
         LuminaireKind::Sky { world_from_sky, .. } => Some(world_from_sky.columns),
         _ => None,
     };
-    let north = match scene.up() {
-        UpAxis::Z => Direction::Y,
-        UpAxis::Y => -Direction::Z,
-    };
-    let usual = [Direction::X, north, scene.up().direction()].map(Direction::to_vector);
+    let usual = world_from_sky(scene.up(), 0.0).columns;
     scene.luminaires().iter().find_map(|l| of_sky(&l.kind)).unwrap_or(usual)
 }
 

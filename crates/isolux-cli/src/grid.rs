@@ -12,10 +12,10 @@ mod warnings;
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
+use crate::interval::{Interval, Verdict};
 use crate::maintained::{self, Maintained};
 use crate::output::OutputPath;
 use crate::{map_file, solving, source};
-use condition::Verdict;
 use isolux::engine::{MapReader, SolveRequest};
 use isolux::geometry::Point;
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
@@ -26,10 +26,9 @@ use result::GridResult;
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Accuracies with which requirements are tried to be decided, one after the other: each costs some four times the one before.
-const ACCURACIES: [f64; 4] = [0.04, 0.02, 0.01, 0.005];
-/// The last of them: what is still undecided then is too near its bound.
-const FINEST: f64 = 0.0025;
+/// Accuracies with which requirements are tried to be decided, one after the other: each costs some four times the one before. What
+/// is undecided at the last is too near its bound.
+const ACCURACIES: [f64; 5] = [0.04, 0.02, 0.01, 0.005, 0.0025];
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
@@ -134,15 +133,17 @@ fn decided(
     if requirements.is_empty() || flags.accuracy.is_some() {
         return solved(flags.accuracy, flags, scene);
     }
-    for accuracy in ACCURACIES {
-        let (map, outcome) = solved(Some(accuracy), flags, scene)?;
-        let judged = requirement::judge(requirements, &read(&map))?;
+    let [first, finer @ ..] = ACCURACIES;
+    let mut found = solved(Some(first), flags, scene)?;
+    for accuracy in finer {
+        let judged = requirement::judge(requirements, &read(&found.0))?;
         let is_decided = judged.iter().all(|judged| judged.verdict != Verdict::Undecided);
-        if is_decided || outcome != Outcome::Done {
-            return Ok((map, outcome));
+        if is_decided || found.1 != Outcome::Done {
+            break;
         }
+        found = solved(Some(accuracy), flags, scene)?;
     }
-    solved(Some(FINEST), flags, scene)
+    Ok(found)
 }
 
 /// The map of a scene, as accurate as asked.
@@ -191,13 +192,6 @@ struct Report {
 }
 
 #[derive(Serialize)]
-struct Interval {
-    value: f64,
-    low: f64,
-    high: f64,
-}
-
-#[derive(Serialize)]
 struct Value {
     position: [f64; 3],
     illuminance_lx: Option<f64>,
@@ -209,11 +203,7 @@ struct Value {
 impl Report {
     fn of(result: &GridResult, light: Maintained) -> Self {
         let interval = |read: fn(&GridFigures) -> Figure| {
-            result.read.figures.as_ref().map(read).map(|Figure { value, low, high }| Interval {
-                value,
-                low,
-                high,
-            })
+            result.read.figures.as_ref().map(read).map(Interval::from)
         };
         let (counts, sides_m) = (result.read.grid.counts(), result.read.grid.sides_m());
         Self {

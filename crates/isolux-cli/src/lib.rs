@@ -38,6 +38,7 @@ mod grid_values;
 mod groups;
 mod info;
 mod interrupt;
+mod interval;
 mod kept;
 mod lamp;
 mod lightmap;

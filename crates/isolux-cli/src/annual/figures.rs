@@ -2,7 +2,7 @@
 
 use super::place::{Jackknifed, PlaceYear, over_points, quantile};
 use super::year::Year;
-use isolux::map::Figure;
+use crate::interval::{Interval, Verdict};
 use serde::Serialize;
 
 /// Quantile of Student's distribution with fifteen degrees of freedom, for 95 %: of sixteen replicates.
@@ -22,15 +22,6 @@ const MINIMUM_POINTS: f64 = 0.95;
 /// Levels of EN 17037:2018, table A.1: target and minimum target illuminance, lx.
 const LEVELS_LX: [(&str, [f64; 2]); 3] =
     [("minimum", [300.0, 100.0]), ("medium", [500.0, 300.0]), ("high", [750.0, 500.0])];
-
-/// Whether a threshold is met, at 95 %.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Verdict {
-    Met,
-    NotMet,
-    Undecided,
-}
 
 /// The figures of a grid, shares as fractions, each with an interval of 95 % for the noise of paths.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -61,58 +52,17 @@ pub(super) struct GridYear {
     pub(super) ase_acceptable: Verdict,
 }
 
-/// A figure with its ends.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub(super) struct Interval {
-    pub(super) value: f64,
-    pub(super) low: f64,
-    pub(super) high: f64,
+/// A figure with its interval.
+pub(super) fn interval(figure: &Jackknifed) -> Interval {
+    let half = STUDENT * figure.standard_error();
+    let value = figure.value;
+    Interval { value, low: (value - half).max(0.0), high: value + half }
 }
 
-impl Interval {
-    pub(super) fn of(figure: &Jackknifed) -> Self {
-        let half = STUDENT * figure.standard_error();
-        Self { value: figure.value, low: (figure.value - half).max(0.0), high: figure.value + half }
-    }
-
-    /// The same, of a share: at most one.
-    fn share(figure: &Jackknifed) -> Self {
-        let of = Self::of(figure);
-        Self { high: of.high.min(1.0), ..of }
-    }
-
-    pub(super) const fn figure(self) -> Figure {
-        Figure { value: self.value, low: self.low, high: self.high }
-    }
-
-    fn reaches(self, least: f64) -> Verdict {
-        if self.low >= least {
-            Verdict::Met
-        } else if self.high < least {
-            Verdict::NotMet
-        } else {
-            Verdict::Undecided
-        }
-    }
-}
-
-impl Verdict {
-    /// Whether both are met.
-    fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::NotMet, _) | (_, Self::NotMet) => Self::NotMet,
-            (Self::Met, Self::Met) => Self::Met,
-            _ => Self::Undecided,
-        }
-    }
-
-    pub(super) const fn text(self) -> &'static str {
-        match self {
-            Self::Met => "met",
-            Self::NotMet => "not met",
-            Self::Undecided => "undecided",
-        }
-    }
+/// The same, of a share: at most one.
+fn share(figure: &Jackknifed) -> Interval {
+    let of = interval(figure);
+    Interval { high: of.high.min(1.0), ..of }
 }
 
 impl GridYear {
@@ -125,11 +75,11 @@ impl GridYear {
         let exceeded = |share: f64| move |values: &[f64]| quantile(values, share);
         let factor: fn(&PlaceYear) -> &Jackknifed = |p| &p.daylight_factor;
         let median: fn(&PlaceYear) -> &Jackknifed = |p| &p.median_lx;
-        let target_lx = Interval::of(&over(median, &exceeded(TARGET_POINTS))?);
-        let minimum_target_lx = Interval::of(&over(median, &exceeded(MINIMUM_POINTS))?);
+        let target_lx = interval(&over(median, &exceeded(TARGET_POINTS))?);
+        let minimum_target_lx = interval(&over(median, &exceeded(MINIMUM_POINTS))?);
         let useful: [fn(&PlaceYear) -> &Jackknifed; 4] =
             [|p| &p.useful[0], |p| &p.useful[1], |p| &p.useful[2], |p| &p.useful[3]];
-        let useful = useful.map(|of| over(of, &mean).as_ref().map(Interval::share));
+        let useful = useful.map(|of| over(of, &mean).as_ref().map(share));
         let [Some(dark), Some(some), Some(good), Some(much)] = useful else { return None };
         let sda = sda(points);
         let sunny = points.iter().filter(|p| p.sunny_h > MOST_SUNNY_H).count();
@@ -138,14 +88,14 @@ impl GridYear {
             target_lx.reaches(target).and(minimum_target_lx.reaches(minimum))
         };
         Some(Self {
-            daylight_factor_mean: Interval::of(&over(factor, &mean)?),
-            daylight_factor_median: Interval::of(&over(factor, &exceeded(TARGET_POINTS))?),
-            daylight_factor_95: Interval::of(&over(factor, &exceeded(MINIMUM_POINTS))?),
-            sky_component_mean: Interval::of(&over(|p| &p.sky_component, &mean)?),
+            daylight_factor_mean: interval(&over(factor, &mean)?),
+            daylight_factor_median: interval(&over(factor, &exceeded(TARGET_POINTS))?),
+            daylight_factor_95: interval(&over(factor, &exceeded(MINIMUM_POINTS))?),
+            sky_component_mean: interval(&over(|p| &p.sky_component, &mean)?),
             target_daylight_factor: target_daylight_factors(year),
             target_lx,
             minimum_target_lx,
-            daylight_autonomy: Interval::share(&over(|p| &p.autonomy, &mean)?),
+            daylight_autonomy: share(&over(|p| &p.autonomy, &mean)?),
             spatial_daylight_autonomy: sda,
             annual_sunlight_exposure: ase,
             useful_daylight: [dark, some, good, much],

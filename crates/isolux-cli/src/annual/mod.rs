@@ -18,9 +18,9 @@ use crate::source::{self, bad_file};
 use figures::GridYear;
 use found::Found;
 use isolux::engine::{Daylight, ExactSettings, ProbePoint};
-use isolux::geometry::{Point, Transform};
+use isolux::geometry::Point;
 use isolux::photometry::{GeneralSky, Sky};
-use isolux::scene::{CalculationGrid, Luminaire, LuminaireKind, Scene, UpAxis};
+use isolux::scene::{CalculationGrid, Luminaire, LuminaireKind, Scene, world_from_sky};
 use isolux::units::Rgb;
 use isolux_formats::epw;
 use place::PlaceYear;
@@ -85,19 +85,10 @@ fn below_a_sky(scene: &Scene) -> Scene {
         _ => None,
     });
     let sky = Sky::General { sky: GeneralSky::uniform(1.0), ground_cd_m2: 1.0 };
-    let kind = LuminaireKind::Sky { world_from_sky: own.unwrap_or(upright(scene.up())), sky };
+    let kind =
+        LuminaireKind::Sky { world_from_sky: own.unwrap_or(world_from_sky(scene.up(), 0.0)), sky };
     let luminaire = Luminaire { name: "sky".into(), group: 0, colour: Rgb::WHITE, kind };
     scene.below(luminaire)
-}
-
-/// The frame of a sky whose north is +y, or -z where y is up.
-fn upright(up: UpAxis) -> Transform {
-    match up {
-        UpAxis::Z => Transform::IDENTITY,
-        UpAxis::Y => {
-            Transform::rotation_about(isolux::geometry::Direction::X, -std::f64::consts::FRAC_PI_2)
-        }
-    }
 }
 
 fn found(

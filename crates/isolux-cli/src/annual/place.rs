@@ -1,9 +1,7 @@
 //! A year at one point.
 
-use super::year::{SkyHour, Year, luminances_cd_m2};
+use super::year::{SkyHour, Year};
 use isolux::engine::{Coefficients, Daylight, ExactSettings, ProbePoint};
-use isolux::geometry::Direction;
-use isolux::photometry::GeneralSky;
 
 /// Illuminance that daylight should give, and bounds of what is useful (Mardaljevic and others 2012), lx.
 pub(super) const ENOUGH_LX: f64 = 300.0;
@@ -113,13 +111,9 @@ fn factors(
     year: &Year,
     parts: impl Fn(&Coefficients) -> Vec<&Vec<f64>>,
 ) -> Jackknifed {
-    let overcast = GeneralSky::cie(1, Direction::Z).expect("type 1 is one of the fifteen");
-    let luminances = luminances_cd_m2(&overcast, &year.patches);
-    let open_lx = overcast.horizontal_lx();
     let of = |c: &Coefficients| {
-        let sum =
-            |of: &Vec<f64>| of.iter().zip(&luminances).map(|(c, l)| c * f64::from(*l)).sum::<f64>();
-        vec![parts(c).into_iter().map(sum).sum::<f64>() / open_lx]
+        let sum = |of: &Vec<f64>| of.iter().zip(&year.overcast).map(|(c, l)| c * l).sum::<f64>();
+        vec![parts(c).into_iter().map(sum).sum::<f64>()]
     };
     let of_replicates: Vec<Vec<f64>> = found.iter().map(of).collect();
     jackknifed(&of_replicates, &|factor: &[f64]| factor[0])

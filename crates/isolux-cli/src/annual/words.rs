@@ -1,9 +1,10 @@
 //! A year of daylight as text, CSV and JSON.
 
-use super::figures::{GridYear, Interval};
+use super::figures::{GridYear, interval};
 use super::found::Found;
 use super::place::PlaceYear;
 use crate::console::facts;
+use crate::interval::Interval;
 use crate::rounded::to_error;
 use crate::shown::name;
 use isolux::geometry::Point;
@@ -82,9 +83,8 @@ fn lux(of: Interval) -> String {
 
 /// A figure in digits of half of its interval, and of no less than this.
 fn to_half(of: Interval, least: f64) -> String {
-    let figure = of.figure();
-    let half = (0.5 * (figure.high - figure.low)).max(least);
-    let [value, low, high] = [figure.value, figure.low, figure.high].map(|n| to_error(n, half));
+    let half = (0.5 * (of.high - of.low)).max(least);
+    let [value, low, high] = [of.value, of.low, of.high].map(|n| to_error(n, half));
     if low == value && high == value { value } else { format!("{value} ({low} to {high})") }
 }
 
@@ -137,10 +137,10 @@ impl PointReport {
     fn of((&position, of): (&Point, &PlaceYear)) -> Self {
         Self {
             position: position.into(),
-            daylight_factor: Interval::of(&of.daylight_factor),
-            sky_component: Interval::of(&of.sky_component),
-            daylight_autonomy: Interval::of(&of.autonomy),
-            median_lx: Interval::of(&of.median_lx),
+            daylight_factor: interval(&of.daylight_factor),
+            sky_component: interval(&of.sky_component),
+            daylight_autonomy: interval(&of.autonomy),
+            median_lx: interval(&of.median_lx),
             useful_daylight: [0, 1, 2, 3].map(|k| of.useful[k].value),
             sunny_h: of.sunny_h,
         }

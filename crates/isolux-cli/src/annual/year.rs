@@ -13,6 +13,8 @@ const MULTIPLIER: u32 = 4;
 pub(super) struct Year {
     pub(super) patches: SkyPatches,
     pub(super) hours: Vec<SkyHour>,
+    /// Of the patches, below the CIE overcast sky that gives open ground one lux, cd/m2.
+    pub(super) overcast: Vec<f64>,
     /// Hours of use, dark ones as well.
     pub(super) used_h: f64,
 }
@@ -43,7 +45,10 @@ impl Year {
         let one = |hour: &DaylightHour| SkyHour::of(hour, &patches, used, ground_reflectance);
         let hours = year.hours.par_iter().map(one).collect();
         let used_h = all.iter().filter(|hour| is_used(hour.hour, used)).count() as f64;
-        Self { patches, hours, used_h }
+        let overcast = GeneralSky::cie(1, Direction::Z).and_then(|sky| sky.with_horizontal_lx(1.0));
+        let overcast = overcast.expect("type 1 is one of the fifteen, and has light");
+        let overcast = luminances_cd_m2(&overcast, &patches).into_iter().map(f64::from).collect();
+        Self { patches, hours, overcast, used_h }
     }
 }
 
@@ -78,7 +83,7 @@ const fn is_used(hour: u32, (from, to): (u32, u32)) -> bool {
 }
 
 /// The luminance in the middle of each patch.
-pub(super) fn luminances_cd_m2(sky: &GeneralSky, patches: &SkyPatches) -> Vec<f32> {
+fn luminances_cd_m2(sky: &GeneralSky, patches: &SkyPatches) -> Vec<f32> {
     let of = |patch: usize| sky.luminance_cd_m2(patches.middle(patch)) as f32;
     (0..patches.count()).map(of).collect()
 }

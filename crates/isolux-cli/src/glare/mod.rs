@@ -6,6 +6,7 @@ mod sources;
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::GlareFlags;
+use crate::interval::Interval;
 use crate::notes::{Note, note};
 use crate::quantity::significant;
 use crate::rounded::to_error;
@@ -13,14 +14,12 @@ use crate::shown::name;
 use crate::{map_file, viewpoint};
 use isolux::engine::{MapReader, ProbePoint};
 use isolux::geometry::{Point, Vector};
-use isolux::map::IlluminationMap;
+use isolux::map::{IlluminationMap, NORMAL_95};
 use isolux::scene::{Camera, Scene};
 use serde::Serialize;
 use sources::{Shining, shining};
 use std::f64::consts::{LN_10, PI};
 
-/// Half the width of an interval of 95 % in standard deviations.
-const NORMAL_95: f64 = 1.96;
 /// Below this the unified glare rating is that of no glare (CIE 117:1995).
 const NO_GLARE: f64 = 10.0;
 
@@ -35,13 +34,6 @@ struct Observed {
     background_cd_m2: f64,
     indirect_at_eye_lx: f64,
     sources_in_view: usize,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-struct Interval {
-    value: f64,
-    low: f64,
-    high: f64,
 }
 
 /// Runs the subcommand.

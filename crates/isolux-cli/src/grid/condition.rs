@@ -1,11 +1,8 @@
 //! Bounds of figures of a grid.
 
-use isolux::map::{Figure, GridFigures};
-use serde::Serialize;
+use crate::interval::{Interval, Verdict};
+use isolux::map::{Figure, GridFigures, NORMAL_95};
 use std::f64::consts::SQRT_2;
-
-/// Half the width of an interval of 95 % in standard deviations.
-const NORMAL_95: f64 = 1.96;
 
 /// A bound of a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,15 +20,6 @@ pub(super) enum Quantity {
     Greatest,
     Uniformity,
     Diversity,
-}
-
-/// Whether a condition holds, at 95 %.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Verdict {
-    Met,
-    NotMet,
-    Undecided,
 }
 
 impl Quantity {
@@ -95,16 +83,8 @@ impl Condition {
     }
 
     pub(super) fn verdict(&self, figure: Figure) -> Verdict {
-        let (surely, never) = if self.is_least {
-            (figure.low >= self.bound, figure.high < self.bound)
-        } else {
-            (figure.high <= self.bound, figure.low > self.bound)
-        };
-        match (surely, never) {
-            (true, _) => Verdict::Met,
-            (_, true) => Verdict::NotMet,
-            _ => Verdict::Undecided,
-        }
+        let of = Interval::from(figure);
+        if self.is_least { of.reaches(self.bound) } else { of.keeps_within(self.bound) }
     }
 
     /// How likely it holds: each side of the interval has its own half of a normal distribution.

@@ -1,9 +1,10 @@
 //! Requirements on calculation grids: `desks: Em >= 500, U0 >= 0.6`, or a task of EN 12464-1.
 
-use super::condition::{Condition, Verdict, condition};
+use super::condition::{Condition, condition};
 use super::result::GridResult;
 use super::tasks::task;
 use crate::failure::Failure;
+use crate::interval::{Interval, Verdict};
 use crate::maintained::Maintained;
 use crate::notes::{Note, note};
 use crate::shown::name;
@@ -25,9 +26,8 @@ pub(super) struct Judged {
     /// The task of a standard, if it follows from one.
     task: Option<String>,
     condition: String,
-    value: f64,
-    low: f64,
-    high: f64,
+    #[serde(flatten)]
+    figure: Interval,
     pub(super) verdict: Verdict,
     /// How likely it holds, if errors are normal.
     probability: f64,
@@ -76,9 +76,7 @@ pub(super) fn judge(
                     grid: grid.clone(),
                     task: requirement.task.clone(),
                     condition: condition.text(),
-                    value: figure.value,
-                    low: figure.low,
-                    high: figure.high,
+                    figure: figure.into(),
                     verdict: condition.verdict(figure),
                     probability: condition.probability(figure),
                 }
@@ -107,12 +105,12 @@ impl Judged {
     /// The line that people read.
     pub(super) fn line(&self) -> String {
         let task = self.task.as_ref().map_or(String::new(), |task| format!(" ({task})"));
-        let said = match self.verdict {
-            Verdict::Met => "met".to_owned(),
-            Verdict::NotMet => "not met".to_owned(),
-            Verdict::Undecided => format!("undecided, {:.0} % likely", 100.0 * self.probability),
+        let likely = match self.verdict {
+            Verdict::Undecided => format!(", {:.0} % likely", 100.0 * self.probability),
+            _ => String::new(),
         };
-        format!("{}: {}{task}: {said}", name(&self.grid), self.condition)
+        let said = self.verdict.text();
+        format!("{}: {}{task}: {said}{likely}", name(&self.grid), self.condition)
     }
 }
 

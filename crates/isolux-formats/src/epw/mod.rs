@@ -15,6 +15,7 @@ use std::path::Path;
 
 pub use parse::parse;
 pub use record::{Hour, Instant, Weather, WeatherPlace};
+pub(crate) use year::USUAL_DEW_POINT_C;
 pub use year::{DaylightHour, DaylightYear};
 
 /// Largest file read, bytes: a year of hours has two million.

@@ -10,8 +10,9 @@ const YEAR: i32 = 2025;
 /// The same for files with a leap day.
 const LEAP_YEAR: i32 = 2024;
 
-/// Dew point where a file has none, degrees Celsius; gendaylit of Radiance takes the same. It changes illuminances by a per cent.
-const DEW_POINT_C: f64 = 11.0;
+/// Dew point where none is told, degrees Celsius: two centimetres of water in the air, as gendaylit of Radiance takes it. It changes
+/// illuminances by a per cent.
+pub(crate) const USUAL_DEW_POINT_C: f64 = 11.0;
 
 /// An hour with the sun above the horizon in its middle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +71,7 @@ impl Hour {
             direct_normal_w_m2: self.direct_normal_w_m2?,
             diffuse_horizontal_w_m2: self.diffuse_horizontal_w_m2?,
             day,
-            dew_point_c: self.dew_point_c.unwrap_or(DEW_POINT_C),
+            dew_point_c: self.dew_point_c.unwrap_or(USUAL_DEW_POINT_C),
         })
     }
 }

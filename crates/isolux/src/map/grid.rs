@@ -3,8 +3,8 @@
 use super::Illuminance;
 use crate::scene::CalculationGrid;
 
-/// Two-sided 95 % of the normal distribution.
-const NORMAL_95: f64 = 1.96;
+/// Half the width of an interval of 95 % in standard deviations of the normal distribution.
+pub const NORMAL_95: f64 = 1.96;
 
 /// A figure and its interval of 95 %.
 #[derive(Clone, Copy, Debug, PartialEq)]

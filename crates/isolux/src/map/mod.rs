@@ -11,7 +11,7 @@ mod vertex_light;
 
 pub use audit::{Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface};
 pub use energy::{EnergyBalance, MeasuredFlux, SurfaceBalance};
-pub use grid::{Figure, GridFigures};
+pub use grid::{Figure, GridFigures, NORMAL_95};
 pub use hot_spots::{HotSpots, KnownSurface};
 pub use illuminance::Illuminance;
 pub use provenance::{Accuracy, FilterReport, Fresh, Method, MixedPart, Provenance, Unshot};

@@ -1,7 +1,6 @@
 //! A sky as a `[[luminaire]]`: its luminances as numbers or as a picture, with nothing to be computed. It is what files that are
 //! written hold.
 
-use super::frame::world_from_sky;
 use crate::scene_toml::context::Context;
 use crate::scene_toml::quantity::plain;
 use crate::scene_toml::sky_record::LuminancesRecord;
@@ -9,7 +8,7 @@ use crate::scene_toml::spans::At;
 use crate::sky_picture;
 use isolux::geometry::{Direction, Transform, Vector};
 use isolux::photometry::{GeneralSky, Sky};
-use isolux::scene::LuminaireKind;
+use isolux::scene::{LuminaireKind, world_from_sky};
 use std::sync::Arc;
 
 /// How far axes may be off right angles and a length of one: the rounding of numbers that were written.

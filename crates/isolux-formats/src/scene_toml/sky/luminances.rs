@@ -2,7 +2,7 @@
 
 use super::kind::{Kind, TRADITIONAL};
 use super::sun::{self, Sun};
-use crate::epw::{self, Instant, Weather};
+use crate::epw::{self, Instant, USUAL_DEW_POINT_C, Weather};
 use crate::scene_toml::context::Context;
 use crate::scene_toml::quantity::NonNegative;
 use crate::scene_toml::sky_record::SkyRecord;
@@ -26,8 +26,6 @@ pub(super) struct Light {
 const USUAL_LX: f64 = 10_000.0;
 /// Share of light that the ground beyond the scene reflects, as most programs have it.
 const USUAL_GROUND: f64 = 0.2;
-/// Dew point of temperate climates: two centimetres of water in the air.
-const USUAL_DEW_POINT_C: f64 = 11.0;
 /// A day on which the sun is as far as in the mean, within 0.1 %.
 const USUAL_DAY: u16 = 95;
 

@@ -2,7 +2,6 @@
 
 mod asked;
 mod entry;
-mod frame;
 mod kind;
 mod luminances;
 mod resolve;
@@ -10,5 +9,4 @@ mod sun;
 
 pub use asked::{SkyAsked, put_sky};
 pub(super) use entry::kind as kind_of_entry;
-pub(super) use frame::world_from_sky;
 pub(super) use resolve::luminaires;

@@ -1,6 +1,5 @@
 //! From the table as written to the luminaires `sky` and `sun`.
 
-use super::frame;
 use super::kind::Kind;
 use super::luminances::{self, Light};
 use crate::scene_toml::chromaticity;
@@ -12,7 +11,7 @@ use crate::scene_toml::spans::{At, Span};
 use crate::sun::HALF_ANGLE_DEG;
 use isolux::geometry::Direction;
 use isolux::photometry::Sky;
-use isolux::scene::{Luminaire, LuminaireKind};
+use isolux::scene::{Luminaire, LuminaireKind, world_from_sky};
 use isolux::units::Rgb;
 
 /// The luminaires `sky` and `sun` that a table means, those that give light; nothing after a problem.
@@ -30,7 +29,7 @@ fn made(entry: &At<SkyRecord>, context: &mut Context) -> Option<Vec<Grouped>> {
     let [sky_colour, sun_colour] = colours(record, context);
     let light = luminances::of(kind, record, &at, context)?;
     let world_from_sky =
-        frame::world_from_sky(context.up, record.north_deg.as_ref().map_or(0.0, |n| n.get_ref().0));
+        world_from_sky(context.up, record.north_deg.as_ref().map_or(0.0, |n| n.get_ref().0));
     let [sky_group, sun_group] = record.groups().map(|name| name.map(str::to_owned));
     let mut made = Vec::new();
     if let Some(sun) = sunlight(&light, &at, context) {

@@ -3,10 +3,9 @@
 use super::numbers::shortest;
 use super::text::{number, quoted, triple};
 use crate::luminance::{LuminanceError, Luminances, encode_exr};
-use crate::scene_toml::sky::world_from_sky;
 use isolux::geometry::Transform;
 use isolux::photometry::{GeneralSky, Sky, SkyPicture};
-use isolux::scene::{LuminaireKind, SceneParts};
+use isolux::scene::{LuminaireKind, SceneParts, world_from_sky};
 use std::sync::Arc;
 
 /// A sky as the value of `sky`.

@@ -1,12 +1,12 @@
 //! How skies stand in scenes.
 
-use isolux::geometry::{Transform, Vector};
-use isolux::scene::UpAxis;
-use isolux::units::sincos_deg;
+use super::UpAxis;
+use crate::units::sincos_deg;
+use isolux_geometry::{Transform, Vector};
 
 /// Takes the frame of skies (x east, y north, z to the zenith) to that of a scene. At 0 degrees north is +y where z is up and -z
 /// where y is up, so that +x is east in both; the angle turns it clockwise in plan, by east.
-pub(in crate::scene_toml) fn world_from_sky(up: UpAxis, north_deg: f64) -> Transform {
+pub fn world_from_sky(up: UpAxis, north_deg: f64) -> Transform {
     let (sin, cos) = sincos_deg(north_deg);
     // East, north, zenith in a scene where z is up.
     let level = [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]];
