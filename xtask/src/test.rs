@@ -31,12 +31,19 @@ fn every_change(all: bool) -> [Step; 7] {
 }
 
 /// What takes longer or changes less, and must hold before a release.
-const ALL: [Step; 12] = [
+const ALL: [Step; 14] = [
     ("outside judge of the loader of three.js: Chromium", loaders::three),
     ("outside judges of photometric files: ies2rad, photompy", lamps::run),
     ("outside judge of differences of colours: colour-science", colours::run),
     ("the package for Python on clusters of Ray", python::cluster),
     ("the ray kernel under the address sanitizer", sanitize::run),
+    ("slow tests", |root| {
+        let tests = ["test", "--workspace", "--", "--ignored", "--skip", BILLION];
+        cargo(root, &tests)
+    }),
+    ("reports as PDF", |root| {
+        cargo(root, &["test", "--package", "isolux-report", "--features", "pdf"])
+    }),
     ("a billion rays in a closed hall", |root| {
         let kernel = ["test", "--release", "--quiet", "--package", "isolux-geometry"];
         cargo(root, &[&kernel[..], &["--", "--ignored", "--exact", BILLION]].concat())

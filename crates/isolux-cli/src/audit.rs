@@ -7,12 +7,12 @@ use crate::flags::AuditFlags;
 use crate::map_file;
 use crate::meter::Meter;
 use crate::quantity::{show_count, show_share, significant};
-use crate::rounded::with_error;
 use crate::shown::name;
 use isolux::engine::{self, AuditSettings};
 use isolux::map::{
     Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface, EnergyBalance,
 };
+use isolux::units::with_error;
 use serde::Serialize;
 
 /// An audit that would not have found an error as large as all the light tells nothing.

@@ -3,11 +3,11 @@
 use crate::console::table;
 use crate::notes::{Note, note};
 use crate::quantity::significant;
-use crate::rounded::{to_error, with_error};
 use crate::shown;
 use isolux::engine::energy_balance;
 use isolux::map::{EnergyBalance, IlluminationMap, MeasuredFlux, SurfaceBalance};
 use isolux::scene::Scene;
+use isolux::units::{to_error, with_error};
 
 /// Particles for the report of a run: the flux on a surface that has a tenth of the light is known to a twentieth.
 const OF_A_RUN: u32 = 1 << 12;

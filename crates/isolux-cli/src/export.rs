@@ -8,7 +8,7 @@ use crate::map_file;
 use crate::output::OutputPath;
 use crate::quantity::show_bytes;
 use crate::walk_export;
-use isolux_formats::Digits;
+use isolux::units::Digits;
 use isolux_formats::export::{ExportKind, csv, export};
 use isolux_formats::map_glb::Preview;
 use serde::Serialize;

@@ -1,12 +1,14 @@
 //! Arguments as written.
 
 mod render;
+mod report;
 mod shown;
 mod solve;
 
 pub(crate) use render::{
     EyeFlags, LookFlags, RadianceFlags, RenderFlags, ToneName, with_two_dashes,
 };
+pub(crate) use report::{LanguageName, ReportFlags, YearFlags};
 pub(crate) use shown::{ExportFlags, LayoutFlags, LayoutName, ServerFlags, TargetName, ViewFlags};
 pub(crate) use solve::{BakeFlags, MethodName, ProgressStyle, Quality, RadiosityFlags, SolveFlags};
 
@@ -74,6 +76,8 @@ pub(crate) enum Command {
     Glare(GlareFlags),
     /// A year of daylight on calculation grids: daylight factor, EN 17037, DA, sDA, ASE, UDI
     Daylight(DaylightFlags),
+    /// Write a lighting report: plans, luminaires, figures with intervals, requirements, a year of daylight; as HTML or PDF
+    Report(Box<ReportFlags>),
     /// Compute the light of a scene and write it for an engine: solve and export in one
     Bake(BakeFlags),
     /// Draw views from a map, or of a scene
@@ -134,6 +138,7 @@ impl Command {
             Self::Render(flags) => (&flags.map, &flags.further),
             Self::Grid(flags) => (&flags.source, &flags.further),
             Self::Daylight(flags) => (&flags.source, &flags.further),
+            Self::Report(flags) => (&flags.source, &flags.further),
             Self::Probe(flags) => (&flags.source, &flags.further),
             _ => return None,
         };
@@ -328,6 +333,13 @@ pub(crate) struct GlareFlags {
     /// What it looks at
     #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "eye")]
     pub target: Option<[f64; 3]>,
+}
+
+impl GridChoice {
+    /// Whether nothing is asked for.
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.name.is_none() && self.height.is_none() && self.corner.is_none()
+    }
 }
 
 /// Which points.

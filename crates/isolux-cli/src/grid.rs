@@ -1,12 +1,11 @@
 //! `isolux grid`: illuminance on calculation grids.
 
 pub(crate) mod choice;
-mod condition;
+pub(crate) mod decide;
 mod figures;
-mod picture;
-mod requirement;
-mod result;
-mod tasks;
+pub(crate) mod picture;
+pub(crate) mod requirement;
+pub(crate) mod result;
 mod warnings;
 
 use crate::console::{print, print_json};
@@ -15,20 +14,16 @@ use crate::flags::GridFlags;
 use crate::interval::{Interval, Verdict};
 use crate::maintained::{self, Maintained};
 use crate::output::OutputPath;
-use crate::{map_file, solving, source};
-use isolux::engine::{MapReader, SolveRequest};
+use crate::{map_file, source};
+use isolux::engine::MapReader;
 use isolux::geometry::Point;
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
 use isolux::scene::{CalculationGrid, Scene};
-use isolux_formats::Digits;
-use requirement::{Judged, Requirement, requirement};
+use isolux::units::Digits;
+use requirement::Judged;
 use result::GridResult;
 use serde::Serialize;
 use std::fmt::Write;
-
-/// Accuracies with which requirements are tried to be decided, one after the other: each costs some four times the one before. What
-/// is undecided at the last is too near its bound.
-const ACCURACIES: [f64; 5] = [0.04, 0.02, 0.01, 0.005, 0.0025];
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
@@ -58,7 +53,6 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
             grids.len()
         )));
     }
-    let requirements = requirements(flags)?;
     let read = |map: &IlluminationMap| {
         let reader = MapReader::new(&scene, map);
         let read = |grid: &CalculationGrid| GridResult::of(grid.clone(), (&scene, &reader));
@@ -66,13 +60,13 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     };
     let (map, outcome) = match map {
         Some(map) => (map, Outcome::Done),
-        None => decided(flags, &scene, &requirements, &read)?,
+        None => decide::decided((&scene, &flags.source), flags.accuracy, &grids)?,
     };
     map_file::warn_of_unknown_error(&flags.source, &map);
     let light = Maintained::of(&scene);
     let results = read(&map);
-    let judged = requirement::judge(&requirements, &results)?;
-    warn((&results, &judged), &map, light);
+    let judged = requirement::judge(&results)?;
+    warn(&results, &map, light);
     if let Some(csv) = csv {
         csv.write(
             rows(&results, flags.digits.map_or(Digits::ByError, Digits::Significant)).as_bytes(),
@@ -103,60 +97,17 @@ fn grids(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failu
     for grid in &mut grids {
         grid.maintenance_factor = flags.maintenance_factor.unwrap_or(grid.maintenance_factor);
     }
+    requirement::add(&flags.require, &mut grids)?;
     Ok(grids)
 }
 
 /// What figures do not say.
-fn warn((results, judged): (&[GridResult], &[Judged]), map: &IlluminationMap, light: Maintained) {
-    requirement::warn_of_initial(judged, results, light);
+fn warn(results: &[GridResult], map: &IlluminationMap, light: Maintained) {
     for GridResult { read, in_space, outside } in results {
+        requirement::warn_of_initial(&read.grid, light);
         let caustic = in_space.then(|| map.caustic_share());
         warnings::warn(&read.grid.name, (&read.values, outside), caustic);
     }
-}
-
-/// What `--require` asks for.
-fn requirements(flags: &GridFlags) -> Result<Vec<Requirement>, Failure> {
-    let read = |text: &String| {
-        requirement(text).map_err(|what| Failure::bad_input(format!("--require: {what}")))
-    };
-    flags.require.iter().map(read).collect()
-}
-
-/// The map of a scene: as accurate as asked or, with requirements and no accuracy, as accurate as they need to be decided.
-fn decided(
-    flags: &GridFlags,
-    scene: &Scene,
-    requirements: &[Requirement],
-    read: &impl Fn(&IlluminationMap) -> Vec<GridResult>,
-) -> Result<(IlluminationMap, Outcome), Failure> {
-    if requirements.is_empty() || flags.accuracy.is_some() {
-        return solved(flags.accuracy, flags, scene);
-    }
-    let [first, finer @ ..] = ACCURACIES;
-    let mut found = solved(Some(first), flags, scene)?;
-    for accuracy in finer {
-        let judged = requirement::judge(requirements, &read(&found.0))?;
-        let is_decided = judged.iter().all(|judged| judged.verdict != Verdict::Undecided);
-        if is_decided || found.1 != Outcome::Done {
-            break;
-        }
-        found = solved(Some(accuracy), flags, scene)?;
-    }
-    Ok(found)
-}
-
-/// The map of a scene, as accurate as asked.
-fn solved(
-    accuracy: Option<f64>,
-    flags: &GridFlags,
-    scene: &Scene,
-) -> Result<(IlluminationMap, Outcome), Failure> {
-    let default = SolveRequest::default();
-    let accuracy = accuracy.or(default.accuracy);
-    let request = SolveRequest { accuracy, ..default };
-    let solved = solving::solve_here((scene, &flags.source), &request)?;
-    Ok((solved.solution.map, solved.outcome))
 }
 
 /// What `grid --json` prints.
@@ -202,9 +153,7 @@ struct Value {
 
 impl Report {
     fn of(result: &GridResult, light: Maintained) -> Self {
-        let interval = |read: fn(&GridFigures) -> Figure| {
-            result.read.figures.as_ref().map(read).map(Interval::from)
-        };
+        let interval = |read: fn(&GridFigures) -> Figure| result.read.figures.as_ref().map(read);
         let (counts, sides_m) = (result.read.grid.counts(), result.read.grid.sides_m());
         Self {
             name: result.read.grid.name.clone(),

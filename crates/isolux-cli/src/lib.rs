@@ -41,6 +41,7 @@ mod interrupt;
 mod interval;
 mod kept;
 mod lamp;
+mod lighting_report;
 mod lightmap;
 mod lightmap_export;
 mod lightmap_files;
@@ -70,7 +71,6 @@ mod render;
 mod report;
 mod repository;
 mod request;
-mod rounded;
 mod saved_run;
 mod scene;
 mod serving;
@@ -125,6 +125,7 @@ fn carry_out(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Grid(flags) => grid::run(flags, json),
         Command::Daylight(flags) => annual::run(flags, json),
         Command::Glare(flags) => glare::run(flags, json),
+        Command::Report(flags) => lighting_report::run(flags, json),
         Command::Bake(flags) => bake::run(flags, json),
         Command::Export(flags) => export::run(flags, json),
         Command::View(flags) => serving::view(flags, json),

@@ -1,6 +1,6 @@
 //! Quantities as people write them on a command line.
 
-pub(crate) use isolux_formats::significant;
+pub(crate) use isolux::units::significant;
 use isolux_view::TraceSettings;
 use std::fmt::Display;
 use std::str::FromStr;

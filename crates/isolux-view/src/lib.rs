@@ -49,7 +49,7 @@ pub use gathered::{Gathered, MapViewer, ViewProgress};
 pub use image::{LuminanceImage, Reading, Seen, Sight, Size, Surface};
 pub use light::{colour_of_light, light_of_groups};
 pub use picture::{Picture, UNKNOWN};
-pub use plan::{Plan, PlanPoint};
+pub use plan::{Plan, PlanPoint, PlanWords};
 pub use polar::PolarDiagram;
 pub use profile::{MAX_ICC_BYTES, MonitorProfile, ProfileError};
 pub use rounds::{Noise, Rounds, judged_windows};

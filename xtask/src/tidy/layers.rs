@@ -3,8 +3,15 @@
 use super::finding::Finding;
 use super::tree::Tree;
 
-const COMMAND: &[&str] =
-    &["isolux", "isolux-formats", "isolux-compare", "isolux-memory", "isolux-view", "isolux-serve"];
+const COMMAND: &[&str] = &[
+    "isolux",
+    "isolux-formats",
+    "isolux-compare",
+    "isolux-memory",
+    "isolux-view",
+    "isolux-serve",
+    "isolux-report",
+];
 
 /// Every crate and the crates of ours it may depend on.
 const ALLOWED: &[(&str, &[&str])] = &[
@@ -13,6 +20,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("isolux-formats", &["isolux"]),
     ("isolux-compare", &["isolux"]),
     ("isolux-view", &["isolux"]),
+    ("isolux-report", &["isolux"]),
     ("isolux-memory", &[]),
     ("isolux-serve", &[]),
     ("isolux-cli", COMMAND),

@@ -25,31 +25,31 @@ const LEVELS_LX: [(&str, [f64; 2]); 3] =
 
 /// The figures of a grid, shares as fractions, each with an interval of 95 % for the noise of paths.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub(super) struct GridYear {
+pub(crate) struct GridYear {
     /// Daylight factor: mean over points, median, and what 95 % of the points exceed.
-    pub(super) daylight_factor_mean: Interval,
-    pub(super) daylight_factor_median: Interval,
-    pub(super) daylight_factor_95: Interval,
+    pub(crate) daylight_factor_mean: Interval,
+    pub(crate) daylight_factor_median: Interval,
+    pub(crate) daylight_factor_95: Interval,
     /// The part of its mean that comes straight from the sky.
-    pub(super) sky_component_mean: Interval,
+    pub(crate) sky_component_mean: Interval,
     /// Daylight factors with which this place has 300 lx (and 100 lx) of diffuse light for half of the hours of daylight.
-    pub(super) target_daylight_factor: Option<[f64; 2]>,
+    pub(crate) target_daylight_factor: Option<[f64; 2]>,
     /// Illuminance of half of the hours of daylight: what half of the points exceed, and what 95 % exceed, lx.
-    pub(super) target_lx: Interval,
-    pub(super) minimum_target_lx: Interval,
+    pub(crate) target_lx: Interval,
+    pub(crate) minimum_target_lx: Interval,
     /// Mean share of the hours of use with 300 lx.
-    pub(super) daylight_autonomy: Interval,
+    pub(crate) daylight_autonomy: Interval,
     /// Share of points with 300 lx in half of the hours of use.
-    pub(super) spatial_daylight_autonomy: Interval,
+    pub(crate) spatial_daylight_autonomy: Interval,
     /// Share of points with more than 1000 lx of direct sun in more than 250 hours of use.
-    pub(super) annual_sunlight_exposure: f64,
+    pub(crate) annual_sunlight_exposure: f64,
     /// Mean shares of the hours of use below 100 lx, to 300, to 3000, and above.
-    pub(super) useful_daylight: [Interval; 4],
+    pub(crate) useful_daylight: [Interval; 4],
     /// Whether levels of EN 17037 are met: minimum, medium, high.
-    pub(super) en_17037: [Verdict; 3],
-    pub(super) sda_accepted: Verdict,
-    pub(super) sda_preferred: Verdict,
-    pub(super) ase_acceptable: Verdict,
+    pub(crate) en_17037: [Verdict; 3],
+    pub(crate) sda_accepted: Verdict,
+    pub(crate) sda_preferred: Verdict,
+    pub(crate) ase_acceptable: Verdict,
 }
 
 /// A figure with its interval.

@@ -16,7 +16,7 @@ use crate::output::OutputPath;
 use crate::shown::name;
 use crate::source::{self, bad_file};
 use figures::GridYear;
-use found::Found;
+pub(crate) use found::Found;
 use isolux::engine::{Daylight, ExactSettings, ProbePoint};
 use isolux::geometry::Point;
 use isolux::photometry::{GeneralSky, Sky};
@@ -25,6 +25,7 @@ use isolux::units::Rgb;
 use isolux_formats::epw;
 use place::PlaceYear;
 use rayon::prelude::*;
+use std::path::Path;
 use year::Year;
 
 /// Independent replicates, whose spread tells the noise.
@@ -34,48 +35,73 @@ const HOURS: usize = 8760;
 /// Points between two looks at how far it is.
 const TOGETHER: usize = 16;
 
+/// Which year is asked for, and how well.
+pub(crate) struct YearAsked<'a> {
+    /// A year of weather.
+    pub(crate) weather: &'a Path,
+    /// Hours of use of every day, from and to.
+    pub(crate) hours: (u32, u32),
+    pub(crate) ground_reflectance: f64,
+    /// Paths from every point.
+    pub(crate) paths: u32,
+    pub(crate) seed: u64,
+}
+
 /// Runs the subcommand.
 pub(crate) fn run(flags: &DaylightFlags, json: bool) -> Result<Outcome, Failure> {
     let csv = flags.csv.as_deref().map(|path| OutputPath::check(path, "csv")).transpose()?;
-    let weather = weather(flags)?;
-    let scene = below_a_sky(&source::read_scene(&flags.source)?);
+    let asked = YearAsked {
+        weather: &flags.weather,
+        hours: flags.hours,
+        ground_reflectance: flags.ground_reflectance,
+        paths: flags.paths,
+        seed: flags.seed,
+    };
+    let scene = source::read_scene(&flags.source)?;
     let grids = choice::chosen(&flags.grid, &flags.source, &scene)?;
-    if weather.hours.len() < HOURS {
-        let what = format!("has {} hours, where a year has {HOURS}", weather.hours.len());
-        return Err(wrong_weather(flags, &what));
-    }
-    let days = weather.daylight().map_err(|what| wrong_weather(flags, &what))?;
-    if days.unknown > 0 {
-        let what =
-            format!("{} hours of daylight have no irradiance and are left out", days.unknown);
-        note(Note::Warning, format!("{}: {what}", flags.weather.display()));
-    }
-    let year = Year::of(&days, &weather.hours, flags.hours, flags.ground_reflectance);
-    if year.used_h == 0.0 || year.hours.is_empty() {
-        return Err(wrong_weather(flags, "it has no daylight in the hours of use"));
-    }
-    let daylight = Daylight::new(&scene).expect("a sky was put in");
-    let found = grids.into_iter().map(|grid| found(flags, &daylight, grid, &year));
-    let found: Vec<Found> = found.collect::<Result<_, _>>()?;
+    let (place, found) = of_scene(&asked, &scene, grids)?;
     if let Some(csv) = csv {
         csv.write(words::rows(&found).as_bytes())?;
     }
     if json {
-        print_json(&words::Report::of(&found, &weather.place, flags.hours))?;
+        print_json(&words::Report::of(&found, &place, flags.hours))?;
     } else {
-        print(&words::text(&found, &weather.place, flags.hours))?;
+        print(&words::text(&found, &place, flags.hours))?;
     }
     Ok(Outcome::Done)
 }
 
-fn weather(flags: &DaylightFlags) -> Result<epw::Weather, Failure> {
-    let loaded = epw::read(&flags.weather).map_err(bad_file)?;
-    // What it lacks of a year is refused by whoever needs a year.
-    Ok(loaded.value)
+/// The place of the weather file, and its year on the grids of a scene, whose own light is off.
+pub(crate) fn of_scene(
+    asked: &YearAsked<'_>,
+    scene: &Scene,
+    grids: Vec<CalculationGrid>,
+) -> Result<(String, Vec<Found>), Failure> {
+    // What it lacks of a year is refused here.
+    let weather = epw::read(asked.weather).map_err(bad_file)?.value;
+    if weather.hours.len() < HOURS {
+        let what = format!("has {} hours, where a year has {HOURS}", weather.hours.len());
+        return Err(wrong_weather(asked, &what));
+    }
+    let days = weather.daylight().map_err(|what| wrong_weather(asked, &what))?;
+    if days.unknown > 0 {
+        let what =
+            format!("{} hours of daylight have no irradiance and are left out", days.unknown);
+        note(Note::Warning, format!("{}: {what}", asked.weather.display()));
+    }
+    let year = Year::of(&days, &weather.hours, asked.hours, asked.ground_reflectance);
+    if year.used_h == 0.0 || year.hours.is_empty() {
+        return Err(wrong_weather(asked, "it has no daylight in the hours of use"));
+    }
+    let scene = below_a_sky(scene);
+    let daylight = Daylight::new(&scene).expect("a sky was put in");
+    let found = grids.into_iter().map(|grid| found(asked, &daylight, grid, &year));
+    let found = found.collect::<Result<_, _>>();
+    found.map(|found| (weather.place.name, found))
 }
 
-fn wrong_weather(flags: &DaylightFlags, what: &str) -> Failure {
-    Failure::bad_input(format!("{}: {what}; take a file of a whole year", flags.weather.display()))
+fn wrong_weather(asked: &YearAsked<'_>, what: &str) -> Failure {
+    Failure::bad_input(format!("{}: {what}; take a file of a whole year", asked.weather.display()))
 }
 
 /// The scene with a sky and nothing else that shines. North is where its own sky has it, else +y, or -z where y is up.
@@ -92,15 +118,15 @@ fn below_a_sky(scene: &Scene) -> Scene {
 }
 
 fn found(
-    flags: &DaylightFlags,
+    asked: &YearAsked<'_>,
     daylight: &Daylight<'_>,
     grid: CalculationGrid,
     year: &Year,
 ) -> Result<Found, Failure> {
     let settings = ExactSettings {
-        rays: flags.paths.div_ceil(REPLICATES),
+        rays: asked.paths.div_ceil(REPLICATES),
         replicates: REPLICATES,
-        seed: flags.seed,
+        seed: asked.seed,
     };
     let no_points = || Failure::bad_input(format!("grid `{}` has no points", grid.name));
     let normal = grid.normal().ok_or_else(no_points)?;

@@ -5,10 +5,9 @@ use super::found::Found;
 use super::place::PlaceYear;
 use crate::console::facts;
 use crate::interval::Interval;
-use crate::rounded::to_error;
 use crate::shown::name;
 use isolux::geometry::Point;
-use isolux_formats::epw::WeatherPlace;
+use isolux::units::to_error;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -17,12 +16,12 @@ const LEAST_PERCENT: f64 = 0.05;
 const LEAST_LX: f64 = 0.5;
 
 /// What people read: a list for each grid.
-pub(super) fn text(found: &[Found], place: &WeatherPlace, hours: (u32, u32)) -> String {
+pub(super) fn text(found: &[Found], place: &str, hours: (u32, u32)) -> String {
     let lists: Vec<String> = found.iter().map(|of| list(of, place, hours)).collect();
     lists.join("\n")
 }
 
-fn list(found: &Found, place: &WeatherPlace, (from, to): (u32, u32)) -> String {
+fn list(found: &Found, place: &str, (from, to): (u32, u32)) -> String {
     let GridYear { target_daylight_factor, useful_daylight, .. } = &found.figures;
     let of = &found.figures;
     let [dark, some, good, much] = useful_daylight.map(percent);
@@ -33,7 +32,7 @@ fn list(found: &Found, place: &WeatherPlace, (from, to): (u32, u32)) -> String {
         of.levels().map(|(level, verdict)| format!("{level} {}", verdict.text())).collect();
     facts(&[
         ("grid", format!("{}, {} points", name(&found.grid.name), found.points.len())),
-        ("weather", format!("{}, hours of use {from} to {to}", name(&place.name))),
+        ("weather", format!("{}, hours of use {from} to {to}", name(place))),
         ("daylight factor, mean", percent(of.daylight_factor_mean)),
         ("of it straight from the sky", percent(of.sky_component_mean)),
         ("daylight factor, median", percent(of.daylight_factor_median)),
@@ -118,14 +117,14 @@ struct PointReport {
 }
 
 impl<'a> Report<'a> {
-    pub(super) fn of(found: &'a [Found], place: &'a WeatherPlace, hours: (u32, u32)) -> Self {
+    pub(super) fn of(found: &'a [Found], place: &'a str, hours: (u32, u32)) -> Self {
         let grid = |of: &'a Found| GridReport {
             name: &of.grid.name,
             figures: of.figures,
             points: of.points.iter().zip(&of.years).map(PointReport::of).collect(),
         };
         Self {
-            weather: &place.name,
+            weather: place,
             hours_of_use: hours.into(),
             confidence: 0.95,
             grids: found.iter().map(grid).collect(),

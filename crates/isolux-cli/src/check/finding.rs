@@ -55,6 +55,11 @@ impl Finding {
         Self::warning(place, problem.what.clone(), problem.remedy.clone())
     }
 
+    /// The finding as a sentence without its severity.
+    pub(super) fn sentence(&self) -> String {
+        sentence(&format!("{}: {}; {}", self.place, self.what, self.remedy))
+    }
+
     pub(super) fn line(&self) -> String {
         let severity = match self.severity {
             Severity::Warning => "warning",

@@ -18,9 +18,10 @@ use crate::origin::Extent;
 use crate::quantity::{flux, significant};
 use crate::shown::name;
 use crate::source;
-use finding::Finding;
+use finding::{Finding, Severity};
 use isolux::engine::{SolveError, SolveRequest};
 use isolux::scene::{Scene, UpAxis};
+use isolux_formats::Problem;
 use serde::Serialize;
 use std::path::Path;
 
@@ -35,6 +36,14 @@ pub(crate) fn run(flags: &CheckFlags, json: bool) -> Result<Outcome, Failure> {
         print(&audit.text())?
     }
     Ok(Outcome::Done)
+}
+
+/// What should be known of a scene before its light is believed, as sentences, and whether each is a warning; `read` is what reading
+/// it has left out or guessed.
+pub(crate) fn findings(scene: &Scene, source: &Path, read: &[Problem]) -> Vec<(bool, String)> {
+    let read = read.iter().map(Finding::of_reading).collect();
+    let told = |finding: &Finding| (finding.severity == Severity::Warning, finding.sentence());
+    Audit::of(scene, source, read).findings.iter().map(told).collect()
 }
 
 /// What is known of a scene without solving it.

@@ -9,13 +9,13 @@ use crate::flags::GlareFlags;
 use crate::interval::Interval;
 use crate::notes::{Note, note};
 use crate::quantity::significant;
-use crate::rounded::to_error;
 use crate::shown::name;
 use crate::{map_file, viewpoint};
 use isolux::engine::{MapReader, ProbePoint};
 use isolux::geometry::{Point, Vector};
 use isolux::map::{IlluminationMap, NORMAL_95};
 use isolux::scene::{Camera, Scene};
+use isolux::units::to_error;
 use serde::Serialize;
 use sources::{Shining, shining};
 use std::f64::consts::{LN_10, PI};
@@ -84,6 +84,15 @@ fn looking(scene: &Scene, eye: [f64; 3], target: Option<[f64; 3]>) -> Result<Cam
         ));
     }
     Ok(Camera { name: "eye".into(), position, direction, up, vertical_fov_rad: 1.0 })
+}
+
+/// The rating of an observer, and the luminance of the background, cd/m2; `None` of one who is inside of something.
+pub(crate) fn rated(
+    scene: &Scene,
+    map: &IlluminationMap,
+    eye: &Camera,
+) -> Option<(Option<Interval>, f64)> {
+    observed(scene, map, eye).ok().map(|of| (of.ugr, of.background_cd_m2))
 }
 
 fn observed(scene: &Scene, map: &IlluminationMap, eye: &Camera) -> Result<Observed, Failure> {

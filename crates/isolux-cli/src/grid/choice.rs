@@ -24,6 +24,7 @@ pub(crate) fn chosen(
             spacing_m: None,
             border_m: 0.0,
             maintenance_factor: 1.0,
+            requirements: Vec::new(),
         }],
         (None, None) => named(choice, source, scene)?,
     };
@@ -105,5 +106,6 @@ fn working_plane(source: &Path, scene: &Scene, height_m: f64) -> Result<Calculat
         spacing_m: None,
         border_m: CalculationGrid::usual_border_m([u.length(), v.length()]),
         maintenance_factor: 1.0,
+        requirements: Vec::new(),
     })
 }

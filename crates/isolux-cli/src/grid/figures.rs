@@ -4,9 +4,9 @@ use super::result::GridResult;
 use crate::console::{facts, table};
 use crate::maintained::Maintained;
 use crate::quantity::{show_share, significant};
-use crate::rounded::to_error;
 use crate::shown::name;
 use isolux::map::Figure;
+use isolux::units::to_error;
 
 /// A figure in lux with its interval.
 pub(super) fn lux(figure: Figure) -> String {

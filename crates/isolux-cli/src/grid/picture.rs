@@ -7,12 +7,12 @@ use crate::maintained::Maintained;
 use crate::output::OutputPath;
 use crate::quantity::significant;
 use crate::render;
-use crate::rounded::to_error;
 use crate::shown::name;
 use isolux::geometry::{Point, Ray};
 use isolux::scene::{Scene, UpAxis};
+use isolux::units::to_error;
 use isolux_formats::counted;
-use isolux_view::{Plan, PlanPoint};
+use isolux_view::{Plan, PlanPoint, PlanWords};
 use std::collections::BTreeMap;
 
 /// Draws a grid, as pixels or as SVG by the end of the name.
@@ -24,7 +24,15 @@ pub(super) fn write(
     let grid = &result.read.grid;
     let points: Vec<PlanPoint> = result.read.maintained().map(point).collect();
     let (title, lines) = heading(scene, result);
-    let plan = Plan { scene, grid, points: &points, title: &title, lines: &lines };
+    let plan = Plan {
+        scene,
+        grid,
+        points: &points,
+        title: &title,
+        lines: &lines,
+        longest: Plan::SHEET,
+        words: &PlanWords::ENGLISH,
+    };
     let drawing = plan.drawing().map_err(Failure::bad_input)?;
     if output.path().extension().is_some_and(|end| end.eq_ignore_ascii_case("svg")) {
         return output.write(drawing.svg().as_bytes());
@@ -107,7 +115,7 @@ fn before(scene: &Scene, result: &GridResult) -> Option<String> {
 }
 
 /// Above the origin of the scene, of a level grid.
-fn height_m(scene: &Scene, result: &GridResult) -> Option<f64> {
+pub(crate) fn height_m(scene: &Scene, result: &GridResult) -> Option<f64> {
     let height = |point: &Point| match scene.up() {
         UpAxis::Y => point.y,
         UpAxis::Z => point.z,

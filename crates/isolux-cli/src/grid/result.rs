@@ -7,15 +7,15 @@ use isolux::geometry::Point;
 use isolux::scene::{CalculationGrid, Scene};
 
 /// A grid with its values, and what its figures do not say.
-pub(super) struct GridResult {
-    pub(super) read: GridValues,
+pub(crate) struct GridResult {
+    pub(crate) read: GridValues,
     /// Whether some points lie in free space, where caustics are unknown.
-    pub(super) in_space: bool,
-    pub(super) outside: Outside,
+    pub(crate) in_space: bool,
+    pub(crate) outside: Outside,
 }
 
 impl GridResult {
-    pub(super) fn of(grid: CalculationGrid, (scene, reader): (&Scene, &MapReader)) -> Self {
+    pub(crate) fn of(grid: CalculationGrid, (scene, reader): (&Scene, &MapReader)) -> Self {
         let read =
             GridValues::of(grid, (scene, reader)).expect("a grid without problems has a normal");
         let on_surface =

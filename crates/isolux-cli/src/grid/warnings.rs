@@ -14,7 +14,7 @@ const TOLD_FROM: f64 = 1e-3;
 
 /// Points outside of the room.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Outside {
+pub(crate) struct Outside {
     /// Within the bounds of the scene.
     within_bounds: usize,
     /// And those beyond.
@@ -29,7 +29,7 @@ impl Outside {
         Self { within_bounds: outside().count() - beyond_bounds, beyond_bounds }
     }
 
-    pub(super) const fn count(&self) -> usize {
+    pub(crate) const fn count(&self) -> usize {
         self.within_bounds + self.beyond_bounds
     }
 

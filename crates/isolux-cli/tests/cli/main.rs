@@ -24,6 +24,7 @@ mod plans;
 mod ran;
 #[cfg(unix)]
 mod readme;
+mod reports;
 mod results;
 mod rooms;
 mod several;

@@ -52,15 +52,9 @@ fn a_plan_says_what_it_shows() {
         "{texts:?}"
     );
     assert!(texts.iter().any(|text| text.starts_with("U0 = Emin/Em 0.")), "{texts:?}");
-    for text in [
-        "x in m",
-        "y in m",
-        "Illuminance in lx",
-        "cut at this height",
-        "just below",
-        "spot",
-        "panel",
-    ] {
+    for text in
+        ["x, m", "y, m", "Illuminance in lx", "cut at this height", "just below", "spot", "panel"]
+    {
         assert!(has(text), "{text}: {texts:?}");
     }
     // A circle for the lamp, a rectangle for the panel, both named in the legend.
@@ -118,7 +112,7 @@ fn a_grid_on_a_wall_has_a_plan_as_seen_from_the_room() {
     let wall = ["--corner", "0,4,0.5", "--u", "4,0,0", "--v", "0,0,2"];
     let svg = drawn(&home, &wall);
     let texts = texts(&svg);
-    assert!(texts.contains(&"x in m") && texts.contains(&"z in m"), "{texts:?}");
+    assert!(texts.contains(&"x, m") && texts.contains(&"z, m"), "{texts:?}");
     assert!(texts.contains(&"cut by this plane"), "{texts:?}");
     assert!(!texts.iter().any(|text| text.contains("height")), "{texts:?}");
     let about = texts.iter().find(|text| text.starts_with("Grid: grid")).unwrap();

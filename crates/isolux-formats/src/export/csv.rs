@@ -1,7 +1,7 @@
 //! A row a vertex.
 
-use crate::digits::Digits;
 use isolux::map::{IlluminationMap, VertexLight};
+use isolux::units::Digits;
 use std::fmt::Write;
 
 const HEADER: &str = "x,y,z,nx,ny,nz,area_m2,illuminance_lx,standard_error_lx,direct_lx,indirect_lx,red_lx,\

@@ -12,10 +12,10 @@ mod x3d;
 
 pub use csv::csv;
 
-use crate::digits::Digits;
 use crate::map_glb::{self, Preview};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
+use isolux::units::Digits;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;

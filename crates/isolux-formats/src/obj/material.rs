@@ -8,9 +8,10 @@ use crate::findings::Findings;
 use crate::other_case::Listings;
 use crate::picture::Room;
 use crate::reach::{Root, directory_of};
-use crate::{Loaded, Problem, Problems, short, source};
+use crate::{Loaded, Problem, Problems, source};
 use isolux::scene::{Body, Dielectric, Finish, Material, Texture};
 use isolux::units::Rgb;
+use isolux::units::short;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 

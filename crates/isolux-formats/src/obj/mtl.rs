@@ -3,9 +3,9 @@
 use super::lines::{Statement, number, numbers, place, statements};
 use super::record::{MtlMaterial, Named};
 use crate::findings::Findings;
-use crate::short;
 use crate::srgb::rec709_from_xyz;
 use isolux::units::Rgb;
+use isolux::units::short;
 use std::collections::BTreeSet;
 
 /// Reads all materials; what is wrong goes to the findings with its line.

@@ -21,6 +21,7 @@ pub(super) fn add(entries: &[At<GridRecord>], scene: &mut SceneParts, context: &
             spacing_m: record.spacing.map(|spacing| spacing.0 * unit_m),
             border_m: record.border.map_or(0.0, |border| border.0 * unit_m),
             maintenance_factor: record.maintenance_factor.map_or(1.0, |factor| factor.0),
+            requirements: Vec::new(),
         };
         if scene.maintenance.is_some() && grid.maintenance_factor != 1.0 {
             let what = format!(

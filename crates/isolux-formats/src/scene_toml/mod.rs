@@ -18,6 +18,7 @@ mod photometry;
 mod placement;
 mod quantity;
 mod record;
+mod requirements;
 mod resolve;
 mod shapes;
 mod sky;

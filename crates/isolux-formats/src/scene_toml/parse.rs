@@ -38,6 +38,7 @@ pub(super) fn parse(text: &str, context: &mut Context) -> SceneFile {
             "sky" => file.sky = sky(value, context),
             "camera" => file.cameras = list("camera", value, context),
             "grid" => file.grids = list("grid", value, context),
+            "requirement" => file.requirements = list("requirement", value, context),
             other => unknown(other, key.span(), span, KEYS, context),
         }
     }

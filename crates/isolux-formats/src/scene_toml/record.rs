@@ -21,6 +21,7 @@ pub(super) struct SceneFile {
     pub(super) sky: Option<At<SkyRecord>>,
     pub(super) cameras: Vec<At<CameraRecord>>,
     pub(super) grids: Vec<At<GridRecord>>,
+    pub(super) requirements: Vec<At<RequirementRecord>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -356,6 +357,15 @@ pub(super) struct GridRecord {
     pub(super) spacing: Option<Positive>,
     pub(super) border: Option<NonNegative>,
     pub(super) maintenance_factor: Option<Positive>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RequirementRecord {
+    /// All grids if none is named.
+    pub(super) grid: Option<At<String>>,
+    pub(super) task: Option<At<String>>,
+    pub(super) conditions: Option<At<String>>,
 }
 
 impl MaterialRecord {

@@ -5,7 +5,7 @@ use super::groups::Groups;
 use super::library::Libraries;
 use super::materials::Palette;
 use super::record::SceneFile;
-use super::{cameras, geometry, grids, luminaires, sky};
+use super::{cameras, geometry, grids, luminaires, requirements, sky};
 use isolux::scene::SceneParts;
 
 /// All parts that could be made; what is wrong goes to the findings.
@@ -33,6 +33,7 @@ pub(super) fn resolve(mut file: SceneFile, context: &mut Context) -> SceneParts 
     scene.groups = groups.names;
     cameras::add(&file.cameras, &mut scene, context);
     grids::add(&file.grids, &mut scene, context);
+    requirements::add(&file.requirements, &mut scene, context);
     if scene.shapes.is_empty() && !context.has_problems() {
         context.problem(&(0..0), "the scene has no geometry", "add a [[geometry]]");
     }

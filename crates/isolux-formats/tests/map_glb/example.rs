@@ -46,6 +46,7 @@ pub(crate) fn parts() -> SceneParts {
             spacing_m: Some(0.1),
             border_m: 0.05,
             maintenance_factor: 0.8,
+            requirements: vec![isolux_formats::requirement("Em >= 500").unwrap()],
         }],
     }
 }

@@ -1,6 +1,7 @@
 //! Metres along the sides of a plan.
 
 use super::frame::{Frame, Plane};
+use super::words::PlanWords;
 use crate::drawing::{Anchor, At, Drawing, Ink, Lettering, Letters, Line};
 use crate::round::round_step;
 
@@ -11,7 +12,7 @@ const SHORT: f64 = 4.0;
 const INK: Ink = [60; 3];
 
 /// Draws a frame around the plan with ticks below it and to its left, in the coordinates of the scene.
-pub(super) fn draw(on: &mut Drawing, plane: &Plane, frame: &Frame) {
+pub(super) fn draw(on: &mut Drawing, plane: &Plane, frame: &Frame, words: &PlanWords) {
     let ([left, top], [width, height]) = (frame.corner, frame.size());
     let (right, bottom) = (left + width, top + height);
     let ring = vec![[left, top], [right, top], [right, bottom], [left, bottom]];
@@ -35,10 +36,10 @@ pub(super) fn draw(on: &mut Drawing, plane: &Plane, frame: &Frame) {
             let is_long = k % parts as i64 == 0;
             tick(on, side, at, if is_long { LONG } else { SHORT });
             if is_long {
-                number(on, side, at, coordinate);
+                number(on, (side, at), coordinate, words);
             }
         }
-        name_axis(on, side, [[right, bottom], [left, top]][side], &format!("{name} in m"));
+        name_axis(on, side, [[right, bottom], [left, top]][side], &format!("{name}, m"));
     }
 }
 
@@ -48,14 +49,14 @@ fn tick(on: &mut Drawing, side: usize, at: At, length: f64) {
     on.line(Line::solid(vec![at, end], 1.0, INK));
 }
 
-fn number(on: &mut Drawing, side: usize, at: At, coordinate: f64) {
+fn number(on: &mut Drawing, (side, at): (usize, At), coordinate: f64, words: &PlanWords) {
     let text = format!("{:.3}", coordinate + 0.0);
     let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
     let (at, anchor) = match side {
         0 => ([at[0], at[1] + LONG + 10.0], Anchor::Middle),
         _ => ([at[0] - LONG - 4.0, at[1]], Anchor::Right),
     };
-    let text = if text == "-0" { "0".to_owned() } else { text };
+    let text = if text == "-0" { "0".to_owned() } else { words.local(&text) };
     on.text(Lettering { at, anchor, letters: Letters::Small, ink: INK, halo: None, text });
 }
 

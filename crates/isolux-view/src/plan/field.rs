@@ -286,6 +286,7 @@ mod tests {
             spacing_m: Some(1.0),
             border_m: 0.0,
             maintenance_factor: 1.0,
+            requirements: Vec::new(),
         };
         Plane::of(&grid).unwrap()
     }

@@ -240,6 +240,7 @@ mod tests {
             spacing_m: Some(0.5),
             border_m: 0.0,
             maintenance_factor: 1.0,
+            requirements: Vec::new(),
         };
         let plane = Plane::of(&grid).unwrap();
         // A wall on the left, one askew above, one too far below.

@@ -4,6 +4,7 @@ use super::field::Field;
 use super::frame::Frame;
 use super::levels::Levels;
 use super::room::Room;
+use super::words::PlanWords;
 use crate::drawing::{At, Drawing, Ink, Letters, Line, Mark, Pixels};
 use crate::marching::{Segment, crossings};
 use rayon::prelude::*;
@@ -48,10 +49,15 @@ impl Isolines {
     }
 
     /// Writes their values on them, where there is room.
-    pub(super) fn label(&self, on: &mut Drawing, room: &mut Room, levels: &Levels) {
+    pub(super) fn label(
+        &self,
+        on: &mut Drawing,
+        room: &mut Room,
+        (levels, words): (&Levels, &PlanWords),
+    ) {
         let inks = levels.inks();
         for (k, lines) in self.0.iter().enumerate() {
-            let text = number(levels.lux[k]);
+            let text = words.local(&number(levels.lux[k]));
             for line in lines {
                 label(on, room, line, (&text, inks[k + 1]));
             }

@@ -3,7 +3,8 @@
 use super::isolines::number;
 use super::levels::Levels;
 use super::symbols;
-use crate::drawing::{Anchor, At, Drawing, Ink, Lettering, Letters, Line, Mark};
+use super::words::PlanWords;
+use crate::drawing::{Anchor, At, Drawing, Ink, Lettering, Letters, Line, Mark, extent};
 
 const INK: Ink = [20; 3];
 const BAR_WIDTH: f64 = 28.0;
@@ -26,8 +27,18 @@ pub(super) struct Shown {
     pub(super) is_level: bool,
 }
 
+/// Least width, pixels.
+const LEAST_WIDTH: f64 = 190.0;
+
 /// Width, pixels.
-pub(super) const WIDTH: f64 = 190.0;
+pub(super) fn width(words: &PlanWords) -> f64 {
+    let PlanWords { cut_at_height, cut_by_plane, below, behind, luminaire, grid, point, .. } =
+        *words;
+    let rows = [cut_at_height, cut_by_plane, below, behind, luminaire, grid, point];
+    let rows = rows.map(|row| BAR_WIDTH + 12.0 + extent(Letters::Small, row)[0]);
+    let title = extent(Letters::Small, words.values)[0];
+    rows.into_iter().fold(LEAST_WIDTH.max(title), f64::max)
+}
 
 /// The height that a legend takes at least, pixels.
 pub(super) fn least_height(levels: &Levels) -> f64 {
@@ -35,8 +46,13 @@ pub(super) fn least_height(levels: &Levels) -> f64 {
 }
 
 /// Draws it from its upper left corner; it may be so high.
-pub(super) fn draw(on: &mut Drawing, [left, top]: At, height: f64, levels: &Levels, shown: Shown) {
-    write(on, [left, top + 8.0], "Illuminance in lx");
+pub(super) fn draw(
+    on: &mut Drawing,
+    ([left, top], height): (At, f64),
+    levels: &Levels,
+    (shown, words): (Shown, &PlanWords),
+) {
+    write(on, [left, top + 8.0], words.values);
     let inks = levels.inks();
     let band = ((height - 30.0 - 20.0 - 6.0 * ROW) / inks.len() as f64).clamp(BAND.0, BAND.1);
     let bar_top = top + 30.0;
@@ -58,28 +74,28 @@ pub(super) fn draw(on: &mut Drawing, [left, top]: At, height: f64, levels: &Leve
     for (k, level) in levels.lux.iter().rev().enumerate() {
         let y = at(k as f64 + 1.0);
         on.line(Line::solid(vec![[left, y], [left + BAR_WIDTH + 6.0, y]], 1.0, INK));
-        write(on, [left + BAR_WIDTH + 12.0, y], &number(*level));
+        write(on, [left + BAR_WIDTH + 12.0, y], &words.local(&number(*level)));
     }
     let mut y = bottom + 20.0 + 0.5 * ROW;
     let rows: [(bool, Symbol, &str); 6] = [
         (
             shown.cut,
             symbols::cut_sample,
-            if shown.is_level { "cut at this height" } else { "cut by this plane" },
+            if shown.is_level { words.cut_at_height } else { words.cut_by_plane },
         ),
         (
             shown.behind,
             symbols::behind_sample,
-            if shown.is_level { "just below" } else { "just behind" },
+            if shown.is_level { words.below } else { words.behind },
         ),
-        (shown.openings, symbols::opening_sample, "luminaire"),
+        (shown.openings, symbols::opening_sample, words.luminaire),
         (
             shown.points,
             if shown.is_crowded { symbols::dot_sample } else { symbols::round_sample },
-            "luminaire",
+            words.luminaire,
         ),
-        (true, symbols::border_sample, "grid"),
-        (true, symbols::point, "grid point"),
+        (true, symbols::border_sample, words.grid),
+        (true, symbols::point, words.point),
     ];
     for (_, symbol, text) in rows.into_iter().filter(|(is_shown, ..)| *is_shown) {
         symbol(on, [left + 0.5 * BAR_WIDTH, y]);

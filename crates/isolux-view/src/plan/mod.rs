@@ -11,6 +11,9 @@ mod levels;
 mod room;
 mod section;
 mod symbols;
+mod words;
+
+pub use words::PlanWords;
 
 use crate::drawing::{Anchor, At, Drawing, Ink, Lettering, Letters, Mark, PAPER, extent};
 use crate::error::ViewError;
@@ -24,9 +27,8 @@ use levels::Levels;
 use room::Room;
 use section::Section;
 
-/// The longer side of what is drawn of a plane, and the most of its height, pixels.
-const LONGEST: f64 = 1200.0;
-const HIGHEST: f64 = 900.0;
+/// The most of the height of what is drawn of a plane, as a share of its longest side.
+const HIGHEST: f64 = 0.75;
 /// Of a corridor the shorter side is drawn at least so long, while the longer one stays below that.
 const NARROWEST: f64 = 260.0;
 const LONGEST_NARROW: f64 = 2400.0;
@@ -71,6 +73,10 @@ pub struct Plan<'a> {
     pub title: &'a str,
     /// Lines below it.
     pub lines: &'a [String],
+    /// Length of the longer side of what is drawn, pixels: the shorter it is, the larger are letters beside it.
+    pub longest: f64,
+    /// The language of the rest.
+    pub words: &'a PlanWords,
 }
 
 /// What a plan shows at a point.
@@ -85,6 +91,11 @@ pub struct PlanPoint {
 }
 
 impl Plan<'_> {
+    /// The longer side of a sheet of its own, pixels.
+    pub const SHEET: f64 = 1200.0;
+    /// The same of a plan on a page with text.
+    pub const PAGE: f64 = 720.0;
+
     /// Draws it.
     pub fn drawing(&self) -> Result<Drawing, ViewError> {
         let plane = Plane::of(self.grid).ok_or(ViewError::NothingKnown)?;
@@ -94,7 +105,7 @@ impl Plan<'_> {
         let barriers = section.barriers(BARRIER * plane.cells_m().into_iter().fold(0.0, f64::max));
         let levels = self.levels();
         let field = Field::new(&plane, (&values, levels.scale()), &barriers);
-        let window = window(&plane, &section);
+        let window = window(&plane, &section, self.longest);
         let frame = self.frame(window);
         let mut sheet = self.sheet(&frame, &levels)?;
         self.draw_heading(&mut sheet);
@@ -111,9 +122,9 @@ impl Plan<'_> {
         take_walls(&mut room, &section, &frame);
         draw_lamps(&mut sheet, &mut room, &lamps, &frame);
         self.draw_points((&mut sheet, &mut room), (&plane, &frame), &levels);
-        lines.iter().for_each(|lines| lines.label(&mut sheet, &mut room, &levels));
+        lines.iter().for_each(|lines| lines.label(&mut sheet, &mut room, (&levels, self.words)));
         name_lamps(&mut sheet, &mut room, &lamps, &frame);
-        axes::draw(&mut sheet, &plane, &frame);
+        axes::draw(&mut sheet, &plane, &frame, self.words);
         let has = |is_opening: bool| lamps.iter().any(|lamp| lamp.opening.is_some() == is_opening);
         let shown = Shown {
             cut,
@@ -124,7 +135,7 @@ impl Plan<'_> {
             is_level: plane.facing(self.scene.up().direction().to_vector()).abs() > 0.999,
         };
         let beside = [frame.corner[0] + width + MARGIN, frame.corner[1]];
-        legend::draw(&mut sheet, beside, height, &levels, shown);
+        legend::draw(&mut sheet, (beside, height), &levels, (shown, self.words));
         Ok(sheet)
     }
 
@@ -137,12 +148,13 @@ impl Plan<'_> {
     }
 
     fn heading_height(&self) -> f64 {
-        MARGIN + TITLE + self.lines.len() as f64 * ROW + 36.0
+        let title = if self.title.is_empty() { 0.0 } else { TITLE };
+        MARGIN + title + self.lines.len() as f64 * ROW + 36.0
     }
 
     /// As large as fits.
     fn frame(&self, window: Window) -> Frame {
-        let scale = scale(window.sides_m());
+        let scale = scale(window.sides_m(), self.longest);
         Frame { window, scale, corner: [GUTTER, self.heading_height()] }
     }
 
@@ -150,7 +162,8 @@ impl Plan<'_> {
         let [width, height] = frame.size();
         let heading = self.lines.iter().map(|line| extent(Letters::Small, line)[0]);
         let heading = heading.fold(extent(Letters::Large, self.title)[0], f64::max);
-        let width = (GUTTER + width + MARGIN + legend::WIDTH).max(2.0 * MARGIN + heading);
+        let width =
+            (GUTTER + width + MARGIN + legend::width(self.words)).max(2.0 * MARGIN + heading);
         let height = (height + BELOW).max(legend::least_height(levels) + MARGIN);
         Drawing::new(width.ceil() as u32, (self.heading_height() + height).ceil() as u32)
     }
@@ -202,17 +215,17 @@ impl Plan<'_> {
 }
 
 /// Pixels a metre of a window with such sides.
-fn scale([width_m, height_m]: [f64; 2]) -> f64 {
-    let usual = (LONGEST / width_m).min(HIGHEST / height_m);
+fn scale([width_m, height_m]: [f64; 2], longest: f64) -> f64 {
+    let usual = (longest / width_m).min(HIGHEST * longest / height_m);
     let narrow = (NARROWEST / width_m.min(height_m)).min(LONGEST_NARROW / width_m.max(height_m));
     usual.max(narrow)
 }
 
 /// What is cut near the grid, and some space around it.
-fn window(plane: &Plane, section: &Section) -> Window {
+fn window(plane: &Plane, section: &Section, longest: f64) -> Window {
     let reach_m = (REACH * plane.lengths_m[0].min(plane.lengths_m[1])).max(REACH_M);
     let mut window = Window::around(plane, reach_m, &section.pieces);
-    let scale = scale(window.sides_m());
+    let scale = scale(window.sides_m(), longest);
     for k in 0..2 {
         window.low[k] -= INNER / scale;
         window.high[k] += INNER / scale;

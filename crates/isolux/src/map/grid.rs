@@ -1,21 +1,8 @@
 //! What is known of the illuminance on a calculation grid.
 
 use super::Illuminance;
+use super::figure::{Figure, NORMAL_95};
 use crate::scene::CalculationGrid;
-
-/// Half the width of an interval of 95 % in standard deviations of the normal distribution.
-pub const NORMAL_95: f64 = 1.96;
-
-/// A figure and its interval of 95 %.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Figure {
-    /// The figure.
-    pub value: f64,
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-}
 
 /// The figures of EN 12464-1 for a grid: maintained illuminance, lx, and uniformities. Points without a
 /// value, as those within furniture, are left out.
@@ -128,6 +115,7 @@ mod tests {
             spacing_m: None,
             border_m: 0.0,
             maintenance_factor,
+            requirements: Vec::new(),
         }
     }
 

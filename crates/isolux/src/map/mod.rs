@@ -2,6 +2,7 @@
 
 mod audit;
 mod energy;
+mod figure;
 mod grid;
 mod hot_spots;
 mod illuminance;
@@ -11,7 +12,8 @@ mod vertex_light;
 
 pub use audit::{Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface};
 pub use energy::{EnergyBalance, MeasuredFlux, SurfaceBalance};
-pub use grid::{Figure, GridFigures, NORMAL_95};
+pub use figure::{Figure, NORMAL_95, Verdict};
+pub use grid::GridFigures;
 pub use hot_spots::{HotSpots, KnownSurface};
 pub use illuminance::Illuminance;
 pub use provenance::{Accuracy, FilterReport, Fresh, Method, MixedPart, Provenance, Unshot};

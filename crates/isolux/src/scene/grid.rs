@@ -1,5 +1,6 @@
 //! Calculation grids: points at which a lighting designer asks for illuminance.
 
+use super::requirement::Requirement;
 use isolux_geometry::{Normal, Point, Vector};
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +25,9 @@ pub struct CalculationGrid {
     /// The share of the initial light that is left when the installation is maintained; values of the
     /// grid are maintained illuminance.
     pub maintenance_factor: f64,
+    /// What has to hold on it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub requirements: Vec<Requirement>,
 }
 
 impl CalculationGrid {
@@ -138,6 +142,7 @@ mod tests {
             spacing_m: None,
             border_m: 0.0,
             maintenance_factor: 0.8,
+            requirements: Vec::new(),
         }
     }
 

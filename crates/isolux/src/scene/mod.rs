@@ -21,6 +21,7 @@ mod origin;
 mod parts;
 mod problem;
 mod relight;
+mod requirement;
 mod sealed;
 mod texture;
 mod view;
@@ -35,5 +36,6 @@ pub use material::{Body, Coat, Dielectric, Finish, Gloss, Material, Reflectance}
 pub use north::world_from_sky;
 pub use parts::{SceneParts, Shape, UpAxis};
 pub use problem::{Place, SceneProblem};
+pub use requirement::{Condition, GridQuantity, Requirement};
 pub use texture::Texture;
 pub use view::Camera;

@@ -1,7 +1,9 @@
-//! Colour quantities and angles.
+//! Colour quantities, angles, and numbers as text.
 
 mod angle;
+mod digits;
 mod rgb;
 
 pub use angle::sincos_deg;
+pub use digits::{Digits, first_digit, short, significant, to_decimals, to_error, with_error};
 pub use rgb::Rgb;

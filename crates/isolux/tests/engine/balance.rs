@@ -58,6 +58,7 @@ fn of_a_room() {
 }
 
 #[test]
+#[ignore = "slow: cargo xtask test --all"]
 fn of_mirrors() {
     let block = outward_box([0.3, 0.3, 0.2], [0.8, 0.9, 0.8], 1);
     check_both("a block of mirrors", &with(block, mirror(1.0)));
@@ -80,6 +81,7 @@ fn of_a_lamp_in_a_box_of_glass() {
 }
 
 #[test]
+#[ignore = "slow: cargo xtask test --all"]
 fn of_glowing_surfaces() {
     let panel = rectangle([1.0, 0.8, 2.4], [0.0, 0.4, 0.0], [0.6, 0.0, 0.0], 1);
     let shapes: Vec<Shape> = walls().into_iter().chain([panel]).collect();
@@ -90,6 +92,7 @@ fn of_glowing_surfaces() {
 }
 
 #[test]
+#[ignore = "slow: cargo xtask test --all"]
 fn of_parallel_mirrors() {
     // A passage half a metre wide; the walls at y = 0 and y = 0.5 are mirrors.
     let mut shapes = inward_box([0.0; 3], [3.0, 0.5, 2.5], 0);
@@ -101,6 +104,7 @@ fn of_parallel_mirrors() {
 }
 
 #[test]
+#[ignore = "slow: cargo xtask test --all"]
 fn of_water() {
     let surface = rectangle([0.0, 0.0, 1.0], [3.0, 0.0, 0.0], [0.0, 2.0, 0.0], 1);
     check_both("a floor under water", &with(vec![surface], clear_glass(1.33, false)));

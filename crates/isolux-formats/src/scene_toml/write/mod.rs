@@ -17,7 +17,7 @@ pub use lamps::NamedPhotometry;
 
 use crate::luminance::LuminanceError;
 use crate::png::{self, PngError};
-use isolux::scene::{SceneParts, Texture, UpAxis};
+use isolux::scene::{Condition, Requirement, SceneParts, Texture, UpAxis};
 
 /// Why a scene cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -65,7 +65,26 @@ fn grids(parts: &SceneParts) -> String {
         toml += &format!("border = {}\n", text::number(grid.border_m));
         toml += &format!("maintenance_factor = {}\n", text::number(grid.maintenance_factor));
     }
+    for grid in &parts.grids {
+        for requirement in &grid.requirements {
+            toml += "\n[[requirement]]\n";
+            toml += &format!("grid = {}\n", text::quoted(&grid.name));
+            toml += &required(requirement);
+        }
+    }
     toml
+}
+
+fn required(requirement: &Requirement) -> String {
+    if let Some(task) = &requirement.task {
+        // The title of a task begins with its place in the standard.
+        let mut parts = task.split(", ");
+        let [standard, row] = [parts.next(), parts.next()].map(Option::unwrap_or_default);
+        let standard = standard.split(':').next().unwrap_or_default();
+        return format!("task = {}\n", text::quoted(&format!("{standard} {row}")));
+    }
+    let conditions: Vec<String> = requirement.conditions.iter().map(Condition::text).collect();
+    format!("conditions = {}\n", text::quoted(&conditions.join(", ")))
 }
 
 fn head(parts: &SceneParts) -> String {

@@ -4,6 +4,9 @@
 //! before it is reflected, is the integral of the illuminance there. A map whose error has the root mean square e over
 //! an area A may be wrong by e sqrt(A a) in the integral over a part of area a (Cauchy and Schwarz). What lies
 //! beyond that and beyond the noise of the particles is light that the map lacks or has invented.
+//!
+//! The noise on a surface is that of its replicates, and no less than it would be if the map were right: `n` particles of weight `w`
+//! bring a flux `n w` with the variance `n w^2` (Poisson). Where few particles or none arrive, their spread alone tells nothing.
 
 use crate::elements::carries_map;
 use crate::engine::light::{Emission, Lighting, Particle, scatterings};
@@ -55,14 +58,16 @@ pub fn energy_balance(
     let went: Vec<Went> = (0..REPLICATES).into_par_iter().map(flown).collect();
     let mapped = mapped(scene, map);
     let flux = |of: &dyn Fn(&Went) -> f64| measured(went.iter().map(of));
-    let area_m2: f64 = mapped.iter().map(|of| of.area_m2).sum();
+    let [mapped_lm, area_m2] =
+        [|of: &Mapped| of.lm, |of: &Mapped| of.area_m2].map(|read| mapped.iter().map(read).sum());
     let error_lx = map
         .provenance
         .accuracy
         .map_or(f64::INFINITY, |accuracy| accuracy.interpolated * reference_lx(map));
-    let explained_lm = |part_m2: f64, arriving: MeasuredFlux| {
-        EnergyBalance::DEVIATIONS * arriving.standard_error_lm
-            + error_lx * (part_m2 * area_m2).sqrt()
+    let weight_lm = emission.flux_lm() / (f64::from(each) * f64::from(REPLICATES));
+    let explained_lm = |part_m2: f64, arriving: MeasuredFlux, mapped_lm: f64| {
+        let noise_lm = arriving.standard_error_lm.max((mapped_lm * weight_lm).sqrt());
+        EnergyBalance::DEVIATIONS * noise_lm + error_lx * (part_m2 * area_m2).sqrt()
     };
     let arriving = flux(&|went| went.arriving.iter().sum());
     let surfaces = mapped.iter().enumerate().filter(|(_, of)| of.area_m2 > 0.0);
@@ -72,7 +77,7 @@ pub fn energy_balance(
             shape: scene.shape_names()[shape].clone(),
             arriving,
             mapped_lm: of.lm,
-            explained_lm: explained_lm(of.area_m2, arriving),
+            explained_lm: explained_lm(of.area_m2, arriving, of.lm),
         }
     });
     let excess = |of: &SurfaceBalance| (of.arriving.lm - of.mapped_lm).abs() / of.explained_lm;
@@ -86,8 +91,8 @@ pub fn energy_balance(
         escaped: flux(&|went| went.escaped),
         given_up: flux(&|went| went.given_up),
         arriving,
-        mapped_lm: mapped.iter().map(|of| of.lm).sum(),
-        explained_lm: explained_lm(area_m2, arriving),
+        mapped_lm,
+        explained_lm: explained_lm(area_m2, arriving, mapped_lm),
         surfaces,
     })
 }

@@ -1,7 +1,7 @@
 //! Tasks of EN 12464-1:2021: rows of its tables with the maintained illuminance and the uniformity that they require. Only values
 //! of illuminance on the task area are here; glare and colour rendering are for other judges.
 
-use super::condition::{Condition, Quantity};
+use isolux::scene::{Condition, GridQuantity};
 
 /// A row of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,8 +38,8 @@ pub(super) fn task(row: &str) -> Result<Task, String> {
 impl Task {
     pub(super) const fn conditions(&self) -> [Condition; 2] {
         [
-            Condition { of: Quantity::Mean, is_least: true, bound: self.mean_lx },
-            Condition { of: Quantity::Uniformity, is_least: true, bound: self.uniformity },
+            Condition { of: GridQuantity::Mean, is_least: true, bound: self.mean_lx },
+            Condition { of: GridQuantity::Uniformity, is_least: true, bound: self.uniformity },
         ]
     }
 

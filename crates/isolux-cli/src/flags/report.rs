@@ -1,0 +1,91 @@
+//! Arguments of `isolux report`.
+
+use super::GridChoice;
+use super::solve::FURTHER_HELP;
+use crate::quantity;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux report map.glb -o report.html
+  isolux report room.toml -o report.pdf --title \"Office 2.14\" --client \"Example AG\" --date 2026-11-29
+  isolux report room.toml -o bericht.html --language de --require \"EN 12464-1 34.2\" --maintenance-factor 0.8
+  isolux report room.toml -o daylight.html --weather berlin.epw
+
+What is required of calculation grids is in the scene ([[requirement]] in scene.toml) or given by --require; a scene is solved until that is \
+decided. Every figure has its interval of 95 %. Exit code 1 unless all requirements are surely met. One file of HTML holds everything, and \
+prints as pages; .pdf needs an isolux built with PDF.")]
+pub(crate) struct ReportFlags {
+    /// The map (.glb), or a scene, which is solved first
+    #[arg(value_name = "MAP|SCENE")]
+    pub source: PathBuf,
+    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
+    pub further: Vec<PathBuf>,
+    /// Where to write the report
+    #[arg(short, long, value_name = "REPORT.html|.pdf")]
+    pub output: PathBuf,
+    /// Its language
+    #[arg(long, value_enum, default_value_t = LanguageName::En)]
+    pub language: LanguageName,
+    /// The title [default: the name of the scene]
+    #[arg(long)]
+    pub title: Option<String>,
+    /// Who it is made for
+    #[arg(long, value_name = "NAME")]
+    pub client: Option<String>,
+    /// Who has made it
+    #[arg(long, value_name = "NAME")]
+    pub author: Option<String>,
+    /// The day, written as it is given
+    #[arg(long)]
+    pub date: Option<String>,
+    /// Remarks for the cover
+    #[arg(long, value_name = "TEXT")]
+    pub remarks: Option<String>,
+    /// A camera whose picture it shows; several: --camera again [default: all]
+    #[arg(long, value_name = "NAME")]
+    pub camera: Vec<String>,
+    #[command(flatten)]
+    pub grid: GridChoice,
+    /// The share of the initial light that is left when maintained: 0.8 or 80%; 1 is all of it [default: the grid's, else 1]
+    #[arg(long, value_name = "SHARE", value_parser = quantity::maintenance_factor, allow_hyphen_values = true)]
+    pub maintenance_factor: Option<f64>,
+    /// Of a scene: solve it to this accuracy [default: 1%, or what requirements need]
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
+    pub accuracy: Option<f64>,
+    /// What has to hold on a grid, or on all, beside what the scene requires: "desks: Em >= 500, U0 >= 0.6", or "desks: EN 12464-1 34.2"
+    #[arg(long, value_name = "WHAT")]
+    pub require: Vec<String>,
+    #[command(flatten)]
+    pub year: YearFlags,
+}
+
+/// Languages of reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LanguageName {
+    /// English
+    En,
+    /// German
+    De,
+}
+
+/// A year of daylight.
+#[derive(Debug, Args)]
+pub(crate) struct YearFlags {
+    /// Add a year of daylight, by this year of weather (EnergyPlus)
+    #[arg(long, value_name = "FILE.epw")]
+    pub weather: Option<PathBuf>,
+    /// Hours of use of every day by standard time, from and to
+    #[arg(long, value_name = "FROM..TO", value_parser = quantity::hours_of_day, default_value = "8..18", requires = "weather")]
+    pub hours: (u32, u32),
+    /// Reflectance of the ground beyond the scene in the hours of the year
+    #[arg(long, value_name = "SHARE", value_parser = quantity::reflectance, default_value = "0.2", allow_hyphen_values = true, requires = "weather")]
+    pub ground_reflectance: f64,
+    /// Paths of daylight from every point; more make intervals narrower
+    #[arg(long, value_name = "N", default_value_t = 16_384, value_parser = clap::value_parser!(u32).range(256..=16_777_216), requires = "weather")]
+    pub paths: u32,
+    /// Seed of random numbers of daylight
+    #[arg(long, default_value_t = 1, requires = "weather")]
+    pub seed: u64,
+}

@@ -1,0 +1,237 @@
+//! `isolux report`: a lighting report as HTML or PDF.
+
+mod areas;
+mod fixtures;
+mod surfaces;
+mod views;
+mod year;
+
+use crate::console::{facts, print, print_json};
+use crate::failure::{Failure, Outcome};
+use crate::flags::{LanguageName, ReportFlags};
+use crate::grid::{choice, decide, requirement};
+use crate::maintained::{self, Maintained};
+use crate::origin::Extent;
+use crate::output::OutputPath;
+use crate::shown::name;
+use crate::{check, energy, map_file, source};
+use isolux::engine::reference_lx;
+use isolux::map::IlluminationMap;
+use isolux::scene::{CalculationGrid, LuminaireKind, Scene, UpAxis};
+use isolux_report::{Finding, Language, Maintenance, Project, Report, Severity};
+use serde::Serialize;
+
+/// Files of reports.
+const ENDS: [&str; 2] = ["html", "pdf"];
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &ReportFlags, json: bool) -> Result<Outcome, Failure> {
+    let output = OutputPath::check_any(&flags.output, &ENDS)?;
+    output.differs_from(&flags.source)?;
+    let is_pdf = output.path().extension().is_some_and(|end| end.eq_ignore_ascii_case("pdf"));
+    if is_pdf && !cfg!(feature = "pdf") {
+        return Err(Failure::bad_input(format!(
+            "{}: this isolux was built without PDF; write .html, which prints as pages, or build it with --features pdf",
+            output.path().display()
+        )));
+    }
+    let opened = Opened::of(flags)?;
+    let language = match flags.language {
+        LanguageName::En => Language::English,
+        LanguageName::De => Language::German,
+    };
+    let report = report(flags, &opened, language)?;
+    output.write(&bytes(&report, language, is_pdf)?)?;
+    let told = Told::of(&output, &report);
+    if json {
+        print_json(&told)?;
+    } else {
+        print(&told.text())?;
+    }
+    let all_met = told.met == told.requirements;
+    Ok(if all_met { opened.outcome } else { Outcome::CheckFailed })
+}
+
+/// What a report is made of.
+struct Opened {
+    scene: Scene,
+    /// `None` of a scene without light of its own.
+    map: Option<IlluminationMap>,
+    grids: Vec<CalculationGrid>,
+    findings: Vec<(bool, String)>,
+    outcome: Outcome,
+}
+
+impl Opened {
+    fn of(flags: &ReportFlags) -> Result<Self, Failure> {
+        if !map_file::is_map(&flags.source) {
+            return Self::of_scene(flags);
+        }
+        if flags.accuracy.is_some() {
+            return Err(Failure::bad_input(format!(
+                "--accuracy: {} is a map, which is solved; leave it out or give a scene",
+                flags.source.display()
+            )));
+        }
+        let (scene, map) = map_file::read(&flags.source)?;
+        map_file::warn_of_unknown_error(&flags.source, &map);
+        let grids = grids(flags, &scene)?;
+        let findings = check::findings(&scene, &flags.source, &[]);
+        Ok(Self { scene, map: Some(map), grids, findings, outcome: Outcome::Done })
+    }
+
+    fn of_scene(flags: &ReportFlags) -> Result<Self, Failure> {
+        let loaded = source::read_scene_with_warnings(&flags.source)?;
+        let scene = loaded.value;
+        let grids = grids(flags, &scene)?;
+        let findings = check::findings(&scene, &flags.source, &loaded.warnings);
+        // A room with windows alone has a year of daylight, and no light of its own.
+        let is_dark = !scene.gives_light() && flags.year.weather.is_some();
+        let (map, outcome) = match is_dark {
+            true => (None, Outcome::Done),
+            false => {
+                let asked = (&scene, flags.source.as_path());
+                let (map, outcome) = decide::decided(asked, flags.accuracy, &grids)?;
+                (Some(map), outcome)
+            }
+        };
+        Ok(Self { scene, map, grids, findings, outcome })
+    }
+}
+
+/// The grids of the report: none of a scene without, unless some are asked for.
+fn grids(flags: &ReportFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
+    if let Some(factor) = flags.maintenance_factor {
+        maintained::refuse_second(factor, scene, &flags.source)?;
+    }
+    let mut grids = match flags.grid.is_empty() && scene.grids().is_empty() {
+        true => Vec::new(),
+        false => choice::chosen(&flags.grid, &flags.source, scene)?,
+    };
+    for grid in &mut grids {
+        grid.maintenance_factor = flags.maintenance_factor.unwrap_or(grid.maintenance_factor);
+    }
+    requirement::add(&flags.require, &mut grids)?;
+    Ok(grids)
+}
+
+fn report(flags: &ReportFlags, opened: &Opened, language: Language) -> Result<Report, Failure> {
+    let Opened { scene, map, grids, findings, .. } = opened;
+    let light = Maintained::of(scene);
+    grids.iter().for_each(|grid| requirement::warn_of_initial(grid, light));
+    let daylight = year::of(&flags.year, scene, grids, language)?;
+    let lit = map.as_ref().map(|map| (scene, map));
+    let areas = match lit {
+        Some(lit) => areas::of(lit, grids, language)?,
+        None => Vec::new(),
+    };
+    let (views, glare) = match lit {
+        Some(lit) => views::of(flags, lit)?,
+        None => Default::default(),
+    };
+    let finding = |(is_warning, text): &(bool, String)| Finding {
+        severity: if *is_warning { Severity::Warning } else { Severity::Note },
+        text: text.clone(),
+    };
+    Ok(Report {
+        project: project(flags, scene),
+        scene: facts_of(scene),
+        areas,
+        luminaires: fixtures::of(scene),
+        daylight,
+        glare,
+        views,
+        surfaces: surfaces::of(scene),
+        provenance: map.as_ref().map(|map| map.provenance.clone()),
+        reference_lx: map.as_ref().map_or(0.0, reference_lx),
+        energy: map.as_ref().and_then(|map| energy::of_run(scene, map)),
+        findings: findings.iter().map(finding).collect(),
+        software: concat!("isolux ", env!("CARGO_PKG_VERSION")).to_owned(),
+    })
+}
+
+fn project(flags: &ReportFlags, scene: &Scene) -> Project {
+    let of_scene = || match scene.name() {
+        "" => flags.source.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        name => name.to_owned(),
+    };
+    Project {
+        title: name(&flags.title.clone().unwrap_or_else(of_scene)),
+        client: flags.client.clone(),
+        author: flags.author.clone(),
+        date: flags.date.clone(),
+        remarks: flags.remarks.clone(),
+    }
+}
+
+fn facts_of(scene: &Scene) -> isolux_report::Scene {
+    let [x, y, z] = Extent::of(scene).size_m();
+    let far = |kind: &LuminaireKind| kind.is_infinitely_far();
+    let has_flux = scene.luminaires().iter().any(|luminaire| !far(&luminaire.kind))
+        || !scene.area_luminaires().is_empty();
+    let skies = scene.luminaires().iter().filter(|luminaire| far(&luminaire.kind));
+    let (surface_m2, mean_reflectance) = surfaces::mean(scene);
+    isolux_report::Scene {
+        name: name(scene.name()),
+        size_m: match scene.up() {
+            UpAxis::Y => [x, z, y],
+            UpAxis::Z => [x, y, z],
+        },
+        surface_m2,
+        mean_reflectance,
+        flux_lm: has_flux.then(|| scene.luminous_flux_lm()),
+        maintenance: scene.maintenance().map_or(Maintenance::Initial, |factors| {
+            Maintenance::Maintained { least: factors.least, greatest: factors.greatest }
+        }),
+        skies: skies.map(|luminaire| name(&luminaire.name)).collect(),
+    }
+}
+
+#[cfg_attr(not(feature = "pdf"), expect(clippy::unnecessary_wraps, reason = "PDF may fail"))]
+fn bytes(report: &Report, language: Language, is_pdf: bool) -> Result<Vec<u8>, Failure> {
+    #[cfg(feature = "pdf")]
+    if is_pdf {
+        return isolux_report::pdf(report, language).map_err(|e| Failure::Refused(e.to_string()));
+    }
+    debug_assert!(!is_pdf, "a build without PDF has refused it");
+    Ok(isolux_report::html(report, language).into_bytes())
+}
+
+/// What `report --json` prints.
+#[derive(Serialize)]
+struct Told {
+    report: String,
+    grids: usize,
+    requirements: usize,
+    /// Of them, those surely met.
+    met: usize,
+    pictures: usize,
+}
+
+impl Told {
+    fn of(output: &OutputPath, report: &Report) -> Self {
+        let requirements = || report.areas.iter().flat_map(|area| &area.requirements);
+        let is_met = |of: &&isolux_report::Requirement| of.verdict == isolux::map::Verdict::Met;
+        Self {
+            report: output.path().display().to_string(),
+            grids: report.areas.len(),
+            requirements: requirements().count(),
+            met: requirements().filter(is_met).count(),
+            pictures: report.views.len(),
+        }
+    }
+
+    fn text(&self) -> String {
+        let Self { requirements, met, .. } = self;
+        let required = match requirements {
+            0 => "none were given".to_owned(),
+            all => format!("{met} of {all} met"),
+        };
+        facts(&[
+            ("report", self.report.clone()),
+            ("grids", self.grids.to_string()),
+            ("requirements", required),
+            ("pictures", self.pictures.to_string()),
+        ])
+    }
+}
