@@ -49,6 +49,17 @@ impl AddAssign for Brought {
     }
 }
 
+/// What a path remembers of the diffuse surfaces that have reflected its light.
+pub(super) trait Trail: Clone {
+    /// The same after one more reflection, at a triangle.
+    fn reflected(&self, triangle: u32) -> Self;
+}
+
+/// Most paths remember nothing.
+impl Trail for () {
+    fn reflected(&self, _triangle: u32) {}
+}
+
 /// The sum of the paths of a replicate.
 #[derive(Default)]
 pub(super) struct Paths {
@@ -100,7 +111,10 @@ impl PathTracer<'_> {
         let sequence = Sequence::new(key);
         let mut all = Paths::default();
         for index in 0..count {
-            let (brought, rays) = self.path(start, &mut Dice::new(sequence, index));
+            let mut brought = Brought::default();
+            let rays = self.path((start, ()), &mut Dice::new(sequence, index), &mut |part, ()| {
+                brought += part;
+            });
             all.sum += brought;
             all.rays += rays;
             all.keep((brought.caustic + brought.indirect).luminance());
@@ -108,9 +122,16 @@ impl PathTracer<'_> {
         all
     }
 
-    /// The light of one path, and its number of rays.
-    fn path(&self, start: Gatherer, dice: &mut Dice) -> (Brought, u64) {
-        let mut light = Brought::default();
+    /// The number of rays of one path. `found` receives the parts of its light, each with the trail of the path.
+    pub(super) fn path<T: Trail>(
+        &self,
+        (start, trail): (Gatherer, T),
+        dice: &mut Dice,
+        found: &mut impl FnMut(Brought, &T),
+    ) -> u64 {
+        let mut indirect = |lx: Rgb, trail: &T| {
+            found(Brought { indirect: lx, caustic: Rgb::BLACK }, trail);
+        };
         let mut rays = 0;
         // A surface that is both diffuse and a mirror splits a path.
         let mut waiting = vec![(start, Rgb::WHITE, true)];
