@@ -27,7 +27,7 @@ pub use light::{Arrival, Highlighted, Highlights, ShadowRays, Shining, arrivals}
 pub use method::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
     Coefficients, Daylight, IrradianceCache, PathTracer, RadiosityLimits, RadiositySettings,
-    SampleKind, Served,
+    SampleKind, Sensitivity, Served,
 };
 pub use ray::{ProbePoint, Sums};
 pub use read::{

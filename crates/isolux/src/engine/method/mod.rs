@@ -21,6 +21,6 @@ pub(crate) use hybrid::{Hybrid, IncrementSize, READERS};
 pub(crate) use radiosity::{Left, Radiosity};
 pub use radiosity::{RadiosityLimits, RadiositySettings};
 pub(crate) use reference::Traced;
-pub use reference::{Coefficients, Daylight, PathTracer};
+pub use reference::{Coefficients, Daylight, PathTracer, Sensitivity};
 #[cfg(test)]
 pub(crate) use tally::Tally;

@@ -44,6 +44,7 @@ mod paths;
 mod reflectance;
 mod run_parts;
 mod sealed;
+mod sensitivity;
 mod sharing;
 mod sight;
 mod sums;

@@ -15,6 +15,7 @@
 
 mod daylight;
 mod paths;
+mod sensitivity;
 
 use crate::elements::carries_map;
 use crate::engine::gather::Gatherer;
@@ -28,6 +29,7 @@ use crate::units::Rgb;
 pub use daylight::{Coefficients, Daylight};
 pub use paths::PathTracer;
 use rayon::prelude::*;
+pub use sensitivity::Sensitivity;
 use std::collections::HashMap;
 use std::sync::Arc;
 

@@ -42,6 +42,16 @@ pub(super) struct Brought {
     pub(super) indirect: Rgb,
 }
 
+impl Brought {
+    fn indirect(lx: Rgb) -> Self {
+        Self { indirect: lx, caustic: Rgb::BLACK }
+    }
+
+    fn caustic(lx: Rgb) -> Self {
+        Self { indirect: Rgb::BLACK, caustic: lx }
+    }
+}
+
 impl AddAssign for Brought {
     fn add_assign(&mut self, other: Self) {
         self.caustic += other.caustic;
@@ -129,34 +139,35 @@ impl PathTracer<'_> {
         dice: &mut Dice,
         found: &mut impl FnMut(Brought, &T),
     ) -> u64 {
-        let mut indirect = |lx: Rgb, trail: &T| {
-            found(Brought { indirect: lx, caustic: Rgb::BLACK }, trail);
-        };
         let mut rays = 0;
         // A surface that is both diffuse and a mirror splits a path.
-        let mut waiting = vec![(start, Rgb::WHITE, true)];
-        while let Some((from, throughput, is_first)) = waiting.pop() {
+        let mut waiting = vec![(start, Rgb::WHITE, trail, true)];
+        while let Some((from, throughput, trail, is_first)) = waiting.pop() {
+            let mut sent = |lx: Rgb, triangle: u32| {
+                found(Brought::indirect(throughput * lx), &trail.reflected(triangle));
+            };
             if let Some(senders) = &self.senders {
-                light.indirect += throughput * self.sent(senders, &from, dice);
+                if let Some((lx, triangle)) = self.sent(senders, &from, dice) {
+                    sent(lx, triangle);
+                }
                 rays += 2;
             }
             if let Some(senders) = &self.over_specular {
-                let (sent, flown) = self.sent_over_specular(senders, &from, dice);
-                light.indirect += throughput * sent;
-                rays += flown;
+                rays += self.sent_over_specular(senders, &from, dice, &mut sent);
             }
-            let mut found = self.follow(&from, dice);
-            rays += found.rays;
-            found.shining += found.left.take().map_or(Rgb::BLACK, |left| self.beyond_lx(&left));
+            let mut met = self.follow(&from, dice);
+            rays += met.rays;
+            met.shining += met.left.take().map_or(Rgb::BLACK, |left| self.beyond_lx(&left));
             match is_first {
                 // Where caustics of luminaires without surface are left out, those of emitting surfaces are
                 // left out of the place itself, too.
                 true if self.over_specular.is_some() => {}
-                true => light.caustic += found.shining,
-                false => light.indirect += throughput * found.shining,
+                true => found(Brought::caustic(met.shining), &trail),
+                false => found(Brought::indirect(throughput * met.shining), &trail),
             }
-            for End { surface, share, density } in found.ends {
+            for End { surface, share, density } in met.ends {
                 let throughput = throughput * share;
+                let trail = trail.reflected(surface.triangle);
                 let direct_lx = self.lighting.estimate(&surface, dice);
                 rays += self.lighting.rays_of_estimate();
                 // Without direct light the weight is one; both densities may be zero there.
@@ -164,54 +175,55 @@ impl PathTracer<'_> {
                 let met = lit.zip(density).map_or(1.0, |(senders, by_chance)| {
                     by_chance / (by_chance + senders.landing(direct_lx))
                 });
-                light.indirect += throughput * direct_lx * met;
+                found(Brought::indirect(throughput * direct_lx * met), &trail);
                 let chance = throughput.max_channel().min(MOST_LIKELY);
                 let [survive, _] = dice.pair();
                 if survive < chance {
                     let next = Gatherer::on_surface(surface, 1);
-                    waiting.push((next, throughput / chance, false));
+                    waiting.push((next, throughput / chance, trail, false));
                 }
             }
         }
-        (light, rays)
+        rays
     }
 
-    /// The indirect light at a place from the landing place of light that a luminaire sends out directly, lx.
-    fn sent(&self, senders: &Emission, from: &Gatherer, dice: &mut Dice) -> Rgb {
-        let landed = senders.emit(dice).and_then(|sent| self.scene.bvh().closest_hit(&sent.ray));
-        let Some(surface) = landed.map(|hit| SurfacePoint::from_hit(self.scene, &hit)) else {
-            return Rgb::BLACK;
-        };
+    /// The indirect light at a place from the landing place of light that a luminaire sends out directly, lx, and the triangle
+    /// there.
+    fn sent(&self, senders: &Emission, from: &Gatherer, dice: &mut Dice) -> Option<(Rgb, u32)> {
+        let landed = senders.emit(dice).and_then(|sent| self.scene.bvh().closest_hit(&sent.ray))?;
+        let surface = SurfacePoint::from_hit(self.scene, &landed);
         let by_chance = self.seen(from, &surface);
         if by_chance <= 0.0 {
-            return Rgb::BLACK;
+            return None;
         }
         let direct_lx = self.lighting.estimate(&surface, dice);
-        let reflectance = surface.reflectance(self.scene);
-        reflectance * direct_lx * (by_chance / (by_chance + senders.landing(direct_lx)))
+        let share = by_chance / (by_chance + senders.landing(direct_lx));
+        Some((surface.reflectance(self.scene) * direct_lx * share, surface.triangle))
     }
 
-    /// The indirect light at a place from light that a luminaire without surface sends over specular surfaces
-    /// without virtual luminaires, lx, and the number of rays.
+    /// The number of rays of light that a luminaire without surface sends over specular surfaces without virtual luminaires. `found`
+    /// receives what diffuse surfaces bring of it to a place, lx, and their triangles.
     fn sent_over_specular(
         &self,
         senders: &Emission,
         from: &Gatherer,
         dice: &mut Dice,
-    ) -> (Rgb, u64) {
+        found: &mut impl FnMut(Rgb, u32),
+    ) -> u64 {
         let own = Dice::new(dice.fork(), 0);
         let mut own = own;
         let is_sought = |sent: &Emitted| !sent.is_of_surface() && !self.is_of_sky(sent);
         let Some(emitted) = senders.emit(&mut own).filter(is_sought) else {
-            return (Rgb::BLACK, 0);
+            return 0;
         };
         let mut particle = Particle::sent(&emitted, senders.flux_lm(), own, MAX_SPECULAR);
-        let (mut light, mut rays) = (Rgb::BLACK, 1);
+        let mut rays = 1;
         while let Some(at) = particle.advance(self.scene) {
             if !particle.is_covered(&self.lighting) {
                 let reflectance = at.reflectance(self.scene);
                 if !reflectance.is_black() {
-                    light += particle.flux_lm * reflectance * self.seen(from, &at);
+                    let lx = particle.flux_lm * reflectance * self.seen(from, &at);
+                    found(lx, at.triangle);
                     rays += 1;
                 }
             }
@@ -220,7 +232,7 @@ impl PathTracer<'_> {
             }
             rays += 1;
         }
-        (light, rays)
+        rays
     }
 
     /// The light of skies at the end of a path over specular surfaces, unless that is direct light, lx.
