@@ -35,8 +35,14 @@ pub(super) fn least_height(levels: &Levels) -> f64 {
 }
 
 /// Draws it from its upper left corner; it may be so high.
-pub(super) fn draw(on: &mut Drawing, [left, top]: At, height: f64, levels: &Levels, shown: Shown) {
-    write(on, [left, top + 8.0], "Illuminance in lx");
+pub(super) fn draw(
+    on: &mut Drawing,
+    ([left, top], height): (At, f64),
+    title: &str,
+    levels: &Levels,
+    shown: Shown,
+) {
+    write(on, [left, top + 8.0], title);
     let inks = levels.inks();
     let band = ((height - 30.0 - 20.0 - 6.0 * ROW) / inks.len() as f64).clamp(BAND.0, BAND.1);
     let bar_top = top + 30.0;

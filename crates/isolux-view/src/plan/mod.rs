@@ -71,12 +71,14 @@ pub struct Plan<'a> {
     pub title: &'a str,
     /// Lines below it.
     pub lines: &'a [String],
+    /// What the values are, above their colours: `Illuminance in lx`.
+    pub legend: &'a str,
 }
 
 /// What a plan shows at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanPoint {
-    /// The value, lx; `None` where it is not known, and outside of the room.
+    /// The value, lx, or a ratio of such; `None` where it is not known, and outside of the room.
     pub illuminance_lx: Option<f64>,
     /// Its standard error, lx.
     pub standard_error_lx: f64,
@@ -124,7 +126,7 @@ impl Plan<'_> {
             is_level: plane.facing(self.scene.up().direction().to_vector()).abs() > 0.999,
         };
         let beside = [frame.corner[0] + width + MARGIN, frame.corner[1]];
-        legend::draw(&mut sheet, beside, height, &levels, shown);
+        legend::draw(&mut sheet, (beside, height), self.legend, &levels, shown);
         Ok(sheet)
     }
 
