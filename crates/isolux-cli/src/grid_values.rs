@@ -27,10 +27,19 @@ pub(crate) struct GridValues {
 }
 
 impl GridValues {
-    /// Reads a map; `None` of a grid that has no area. Points inside of things have no value.
+    /// Reads the illuminance of planes that face the way of the grid.
     pub(crate) fn of(
         grid: CalculationGrid,
         (scene, reader): (&Scene, &MapReader<'_>),
+    ) -> Option<Self> {
+        Self::read(grid, (scene, reader), |at| reader.measure(at))
+    }
+
+    /// Reads a map; `None` of a grid that has no area. Points inside of things have no value.
+    pub(crate) fn read(
+        grid: CalculationGrid,
+        (scene, reader): (&Scene, &MapReader<'_>),
+        measure: impl Fn(ProbePoint) -> Option<Illuminance> + Sync,
     ) -> Option<Self> {
         let (normal, points) = (grid.normal()?, grid.points());
         let is_left = lookout();
@@ -41,7 +50,7 @@ impl GridValues {
             };
             points.par_iter().map(read).collect::<Vec<_>>()
         };
-        let mut values = all(&|at| reader.measure(at));
+        let mut values = all(&measure);
         if values.iter().all(Option::is_none) {
             values = all(&|at| known_dark((scene, reader), at));
         }

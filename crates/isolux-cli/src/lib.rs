@@ -37,6 +37,7 @@ mod grid;
 mod grid_values;
 mod groups;
 mod info;
+mod installed;
 mod interrupt;
 mod interval;
 mod kept;

@@ -264,6 +264,20 @@ pub(crate) fn angle_deg(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "is no angle between 0 and 180 degrees; write 60".to_owned())
 }
 
+/// The illuminance that a task requires, lx.
+pub(crate) fn task_lx(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches("lx").trim().parse::<f64>().ok();
+    let number = number.filter(|lx| lx.is_finite() && *lx > 0.0);
+    number.ok_or_else(|| "is no illuminance above 0; write 500".to_owned())
+}
+
+/// An angle in plan, in degrees.
+pub(crate) fn azimuth_deg(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches("deg").trim_end_matches('\u{b0}').trim().parse();
+    let number = number.ok().filter(|deg: &f64| (-360.0..=360.0).contains(deg));
+    number.ok_or_else(|| "is no angle from -360 to 360 degrees; write 90".to_owned())
+}
+
 /// One coordinate, or another number, of a view of Radiance.
 pub(crate) fn coordinate(text: &str) -> Result<f64, String> {
     let number = text.trim().parse::<f64>().ok().filter(|value| value.is_finite());

@@ -14,6 +14,7 @@ use crate::daylight::Daylight;
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
+use crate::installed::Installed;
 use crate::origin::Extent;
 use crate::quantity::{flux, significant};
 use crate::shown::name;
@@ -61,6 +62,8 @@ struct Audit {
     emitting_surfaces: usize,
     luminous_flux_lm: f64,
     #[serde(flatten)]
+    installed: Installed,
+    #[serde(flatten)]
     daylight: Daylight,
     mean_reflectance: f64,
     #[serde(flatten)]
@@ -103,6 +106,7 @@ impl Audit {
             parallel: energy.parallel,
             emitting_surfaces: scene.area_luminaires().len(),
             luminous_flux_lm: energy.flux_lm,
+            installed: Installed::of(scene),
             daylight,
             mean_reflectance: energy.mean_reflectance,
             light,
@@ -136,6 +140,7 @@ impl Audit {
             ("memory at 1 %", memory),
             ("time to 1 %", format!("{time}; to bake lightmaps comes on top")),
         ];
+        rows.extend(self.installed.text().map(|text| ("power", text)));
         rows.extend(self.daylight.rows());
         let mut text = facts(&rows);
         text += "\n";

@@ -1,11 +1,11 @@
 //! The map of a scene that decides what is required of its grids.
 
-use super::requirement::{are_there, of_grid};
+use super::requirement::{are_there, judge};
+use super::result::GridResult;
 use crate::failure::{Failure, Outcome};
-use crate::grid_values::GridValues;
 use crate::interval::Verdict;
 use crate::solving;
-use isolux::engine::{MapReader, SolveRequest};
+use isolux::engine::SolveRequest;
 use isolux::map::IlluminationMap;
 use isolux::scene::{CalculationGrid, Scene};
 use std::path::Path;
@@ -14,11 +14,12 @@ use std::path::Path;
 /// is undecided at the last is too near its bound.
 const ACCURACIES: [f64; 5] = [0.04, 0.02, 0.01, 0.005, 0.0025];
 
-/// The map of a scene: as accurate as asked or, with requirements and no accuracy, as accurate as they need to be decided.
+/// The map of a scene: as accurate as asked or, with requirements and no accuracy, as accurate as they need to be decided. `read`
+/// reads the grids on a map.
 pub(crate) fn decided(
     (scene, source): (&Scene, &Path),
     accuracy: Option<f64>,
-    grids: &[CalculationGrid],
+    (grids, read): (&[CalculationGrid], &dyn Fn(&IlluminationMap) -> Vec<GridResult>),
 ) -> Result<(IlluminationMap, Outcome), Failure> {
     let default = SolveRequest::default();
     let solved = |accuracy: Option<f64>| {
@@ -32,21 +33,12 @@ pub(crate) fn decided(
     let [first, finer @ ..] = ACCURACIES;
     let mut found = solved(Some(first))?;
     for accuracy in finer {
-        if is_decided(scene, &found.0, grids) || found.1 != Outcome::Done {
+        let judged = judge(&read(&found.0))?;
+        let is_decided = judged.iter().all(|judged| judged.verdict != Verdict::Undecided);
+        if is_decided || found.1 != Outcome::Done {
             break;
         }
         found = solved(Some(accuracy))?;
     }
     Ok(found)
-}
-
-/// Whether no requirement is undecided. A grid of which nothing is known will not be decided by more light.
-fn is_decided(scene: &Scene, map: &IlluminationMap, grids: &[CalculationGrid]) -> bool {
-    let reader = MapReader::new(scene, map);
-    grids.iter().all(|grid| {
-        let read = GridValues::of(grid.clone(), (scene, &reader));
-        read.and_then(|read| read.figures).is_none_or(|figures| {
-            of_grid(grid, &figures).all(|judged| judged.verdict != Verdict::Undecided)
-        })
-    })
 }

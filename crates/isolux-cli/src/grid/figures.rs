@@ -1,5 +1,6 @@
 //! The figures of a grid as people read them.
 
+use super::asked::Asked;
 use super::result::GridResult;
 use crate::console::{facts, table};
 use crate::maintained::Maintained;
@@ -33,8 +34,21 @@ fn interval(of: Figure, written: fn(Figure, f64) -> String) -> String {
     if low == value && high == value { value } else { format!("{value} ({low} to {high})") }
 }
 
-/// What people read: of one grid a list, of several tables.
-pub(super) fn text(results: &[GridResult], light: Maintained) -> String {
+/// What people read: of one grid a list, of several tables; before it what is read, if that is not the usual.
+pub(super) fn text(results: &[GridResult], light: Maintained, asked: &Asked) -> String {
+    let mut text = if asked.is_planar() { String::new() } else { format!("{}\n", asked.title()) };
+    text += &figures(results, light);
+    for result in results {
+        let Some(modelling) = &result.modelling else { continue };
+        let [good, known] = modelling.good();
+        let name = name(&result.read.grid.name);
+        text +=
+            &format!("{name}: {}; {good} of {known} points from 0.3 to 0.6\n", modelling.text());
+    }
+    text
+}
+
+fn figures(results: &[GridResult], light: Maintained) -> String {
     let row = |result: &GridResult| row(result, light);
     if let [result] = results {
         return facts(&HEADER.into_iter().zip(row(result)).collect::<Vec<_>>());

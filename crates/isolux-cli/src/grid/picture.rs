@@ -1,6 +1,8 @@
 //! The plan of a grid.
 
+use super::asked::Asked;
 use super::figures;
+use super::modelling;
 use super::result::GridResult;
 use crate::failure::Failure;
 use crate::maintained::Maintained;
@@ -19,11 +21,18 @@ use std::collections::BTreeMap;
 pub(super) fn write(
     output: &OutputPath,
     scene: &Scene,
-    result: &GridResult,
+    (result, asked): (&GridResult, &Asked),
 ) -> Result<(), Failure> {
     let grid = &result.read.grid;
-    let points: Vec<PlanPoint> = result.read.maintained().map(point).collect();
-    let (title, lines) = heading(scene, result);
+    let points: Vec<PlanPoint> = match &result.modelling {
+        Some(modelling) => modelling.values.iter().map(ratio).collect(),
+        None => result.read.maintained().map(point).collect(),
+    };
+    let (title, lines) = heading(scene, (result, asked));
+    let values = match asked.is_modelling() {
+        true => "Modelling Ez/Eh",
+        false => PlanWords::ENGLISH.values,
+    };
     let plan = Plan {
         scene,
         grid,
@@ -31,7 +40,7 @@ pub(super) fn write(
         title: &title,
         lines: &lines,
         longest: Plan::SHEET,
-        words: &PlanWords::ENGLISH,
+        words: &PlanWords { values, ..PlanWords::ENGLISH },
     };
     let drawing = plan.drawing().map_err(Failure::bad_input)?;
     if output.path().extension().is_some_and(|end| end.eq_ignore_ascii_case("svg")) {
@@ -49,8 +58,14 @@ fn point(value: Option<isolux::map::Illuminance>) -> PlanPoint {
     PlanPoint { illuminance_lx: lx, standard_error_lx: error_lx, label }
 }
 
+fn ratio(of: &modelling::Point) -> PlanPoint {
+    let error = of.standard_error.unwrap_or(0.0);
+    let label = of.modelling.map_or(String::new(), |value| to_error(value, error.max(0.02)));
+    PlanPoint { illuminance_lx: of.modelling, standard_error_lx: error, label }
+}
+
 /// The title, and lines below it.
-fn heading(scene: &Scene, result: &GridResult) -> (String, Vec<String>) {
+fn heading(scene: &Scene, (result, asked): (&GridResult, &Asked)) -> (String, Vec<String>) {
     let grid = &result.read.grid;
     let title = if scene.name().is_empty() { grid.name.as_str() } else { scene.name() };
     let mut about = vec![format!("Grid: {}", name(&grid.name))];
@@ -65,6 +80,10 @@ fn heading(scene: &Scene, result: &GridResult) -> (String, Vec<String>) {
         factor => format!("values maintained, maintenance factor {}", significant(factor, 2)),
     });
     let mut lines = vec![about.join("  \u{b7}  ")];
+    if !asked.is_planar() {
+        lines.push(asked.title());
+    }
+    lines.extend(result.modelling.as_ref().map(modelling::Modelling::text));
     if let Some(f) = result.read.figures {
         let all = [("Em", f.mean_lx), ("Emin", f.least_lx), ("Emax", f.greatest_lx)];
         lines.push(

@@ -3,6 +3,7 @@
 use crate::console::{facts, print, print_json, table};
 use crate::daylight::Daylight;
 use crate::failure::Failure;
+use crate::installed::Installed;
 use crate::maintained::Maintained;
 use crate::quantity::{flux, significant};
 use crate::shown::{name, names};
@@ -44,6 +45,8 @@ pub(super) struct Contents {
     groups: Vec<String>,
     luminaires: Vec<Luminaires>,
     luminous_flux_lm: f64,
+    #[serde(flatten)]
+    installed: Installed,
     #[serde(flatten)]
     daylight: Daylight,
     #[serde(flatten)]
@@ -87,6 +90,7 @@ impl Contents {
             luminaires: luminaires(scene),
             // A sum of nothing is -0.
             luminous_flux_lm: scene.luminous_flux_lm() + 0.0,
+            installed: Installed::of(scene),
             daylight: Daylight::of(scene),
             maintained: Maintained::of(scene),
             materials: scene.materials().iter().map(surface).collect(),
@@ -121,6 +125,7 @@ impl Contents {
             ("luminous flux", flux(self.luminous_flux_lm, self.has_parallel())),
             ("light", self.maintained.text()),
         ];
+        rows.extend(self.installed.text().map(|text| ("power", text)));
         rows.extend(self.daylight.rows());
         let mut text = facts(&rows);
         let light = |l: &Luminaires| {

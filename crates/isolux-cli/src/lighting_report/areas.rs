@@ -1,6 +1,7 @@
 //! Calculation grids of a report.
 
 use crate::failure::Failure;
+use crate::grid::Asked;
 use crate::grid::picture::height_m;
 use crate::grid::requirement::{Judged, of_grid};
 use crate::grid::result::GridResult;
@@ -17,11 +18,18 @@ pub(super) fn of(
     grids: &[CalculationGrid],
     language: Language,
 ) -> Result<Vec<Area>, Failure> {
+    read((scene, map), grids).iter().map(|result| area(scene, result, language)).collect()
+}
+
+/// The grids on a map.
+pub(super) fn read(
+    (scene, map): (&Scene, &IlluminationMap),
+    grids: &[CalculationGrid],
+) -> Vec<GridResult> {
     let reader = MapReader::new(scene, map);
-    let area = |grid: &CalculationGrid| {
-        area(scene, &GridResult::of(grid.clone(), (scene, &reader)), language)
-    };
-    grids.iter().map(area).collect()
+    let asked = Asked::illuminance(scene);
+    let read = |grid: &CalculationGrid| GridResult::of(grid.clone(), (scene, &reader), &asked);
+    grids.iter().map(read).collect()
 }
 
 fn area(scene: &Scene, result: &GridResult, language: Language) -> Result<Area, Failure> {

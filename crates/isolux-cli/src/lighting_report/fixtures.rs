@@ -14,9 +14,9 @@ const ALIKE: f64 = 1e-3;
 /// All types, in the order of the scene.
 pub(super) fn of(scene: &Scene) -> Vec<Luminaire> {
     let mut types: Vec<Type> = Vec::new();
-    for luminaire in scene.luminaires() {
+    for (luminaire, fitting) in scene.luminaires().iter().zip(scene.fittings()) {
         if let LuminaireKind::Point { position, intensity, area, .. } = &luminaire.kind {
-            let body = Body::Photometric(intensity, area.as_ref());
+            let body = Body::Photometric(intensity, area.as_ref(), fitting.power_w);
             add(&mut types, &luminaire.name, *position, body);
         }
     }
@@ -24,13 +24,14 @@ pub(super) fn of(scene: &Scene) -> Vec<Luminaire> {
         let name = scene.shape_names().get(surface.shape as usize).map_or("", String::as_str);
         add(&mut types, name, middle(scene, surface), Body::Surface(surface));
     }
-    types.into_iter().map(|of| of.luminaire(scene)).collect()
+    types.into_iter().map(|of| of.luminaire()).collect()
 }
 
 /// What makes luminaires of one type.
 #[derive(Clone, Copy)]
 enum Body<'a> {
-    Photometric(&'a IntensityDistribution, Option<&'a LuminousArea>),
+    /// With the power of one, if it is known, W.
+    Photometric(&'a IntensityDistribution, Option<&'a LuminousArea>, Option<f64>),
     Surface(&'a AreaLuminaire),
 }
 
@@ -54,8 +55,10 @@ impl Body<'_> {
     fn is_like(self, other: Self) -> bool {
         let alike = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
         match (self, other) {
-            (Self::Photometric(a, of_a), Self::Photometric(b, of_b)) => {
-                a == b && of_a.map(seen_m2).zip(of_b.map(seen_m2)).is_none_or(|(a, b)| alike(a, b))
+            (Self::Photometric(a, of_a, w_a), Self::Photometric(b, of_b, w_b)) => {
+                a == b
+                    && w_a == w_b
+                    && of_a.map(seen_m2).zip(of_b.map(seen_m2)).is_none_or(|(a, b)| alike(a, b))
             }
             (Self::Surface(a), Self::Surface(b)) => {
                 let luminance = |of: &AreaLuminaire| of.luminance_cd_m2.luminance();
@@ -76,17 +79,17 @@ fn seen_m2(area: &LuminousArea) -> f64 {
 }
 
 impl Type<'_> {
-    fn luminaire(&self, _scene: &Scene) -> Luminaire {
-        let (flux_lm, body, diagram) = match self.body {
-            Body::Photometric(intensity, area) => {
+    fn luminaire(&self) -> Luminaire {
+        let (flux_lm, power_w, body, diagram) = match self.body {
+            Body::Photometric(intensity, area, power_w) => {
                 let svg = PolarDiagram::of(intensity).svg("", "");
                 let body = area.map_or(LuminousBody::Point, |a| LuminousBody::Area(seen_m2(a)));
-                (intensity.luminous_flux_lm(), body, Some(Image::Svg(svg)))
+                (intensity.luminous_flux_lm(), power_w, body, Some(Image::Svg(svg)))
             }
             Body::Surface(of) => {
                 let luminance = of.luminance_cd_m2.luminance();
                 let flux_lm = PI * luminance * of.area_m2;
-                (flux_lm, LuminousBody::Surface(of.area_m2, luminance), None)
+                (flux_lm, None, LuminousBody::Surface(of.area_m2, luminance), None)
             }
         };
         Luminaire {
@@ -94,7 +97,7 @@ impl Type<'_> {
             manufacturer: None,
             positions_m: self.positions.iter().map(|&at| at.into()).collect(),
             flux_lm,
-            power_w: None,
+            power_w,
             body,
             diagram,
         }

@@ -91,7 +91,8 @@ impl Opened {
             true => (None, Outcome::Done),
             false => {
                 let asked = (&scene, flags.source.as_path());
-                let (map, outcome) = decide::decided(asked, flags.accuracy, &grids)?;
+                let read = |map: &IlluminationMap| areas::read((&scene, map), &grids);
+                let (map, outcome) = decide::decided(asked, flags.accuracy, (&grids, &read))?;
                 (Some(map), outcome)
             }
         };

@@ -1,6 +1,7 @@
 //! The command as a user runs it: exit codes, messages, and the shape of what it prints.
 #![allow(clippy::unwrap_used, reason = "tests may stop at the first surprise")]
 
+mod all_round;
 mod arriving;
 mod bad_input;
 #[cfg(unix)]
@@ -9,6 +10,7 @@ mod dark;
 mod daylight;
 mod days;
 mod degenerate;
+mod emergency;
 mod engines;
 mod errors;
 mod glare;
@@ -21,6 +23,7 @@ mod lint;
 mod parts;
 mod pictures;
 mod plans;
+mod power;
 mod ran;
 #[cfg(unix)]
 mod readme;

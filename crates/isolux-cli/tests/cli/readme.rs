@@ -79,6 +79,7 @@ fn commands_of_the_book_run_as_written() {
     let readme = page("README.md");
     for (name, adds) in [
         ("grids", true),
+        ("emergency", true),
         ("pictures", false),
         ("groups", true),
         ("methods-cache", false),

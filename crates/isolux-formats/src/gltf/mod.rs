@@ -142,6 +142,7 @@ fn resolve(
         materials,
         textures,
         luminaires,
+        fittings: Vec::new(),
         maintenance: None,
         groups: Vec::new(),
         cameras,

@@ -6,7 +6,9 @@ use super::preview::Preview;
 use isolux::geometry::{Direction, Point, Transform};
 use isolux::map::{IlluminationMap, Provenance};
 use isolux::photometry::{GeneralSky, IntensityDistribution};
-use isolux::scene::{CalculationGrid, Camera, LuminousArea, Maintenance, Material, UpAxis};
+use isolux::scene::{
+    CalculationGrid, Camera, Fitting, LuminousArea, Maintenance, Material, UpAxis,
+};
 use isolux::units::Rgb;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -135,6 +137,8 @@ pub(super) struct LuminaireRecord {
     pub(super) group: u32,
     pub(super) colour: Rgb,
     pub(super) kind: KindRecord,
+    #[serde(default, skip_serializing_if = "Fitting::is_unknown")]
+    pub(super) fitting: Fitting,
 }
 
 #[derive(Serialize, Deserialize)]

@@ -9,7 +9,7 @@ use super::record::{
 };
 use super::skies::{Pictures, Rows};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
-use isolux::scene::{Luminaire, LuminaireKind, SceneParts, Shape, Texture};
+use isolux::scene::{Fitting, Luminaire, LuminaireKind, SceneParts, Shape, Texture};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -42,8 +42,10 @@ pub(super) fn write(
     }
     let mut distributions = Distributions::default();
     let mut pictures = Pictures::default();
-    let mut record = |l| distributions.record(l, &mut pictures);
-    let luminaires = parts.luminaires.into_iter().map(&mut record).collect();
+    // Nothing is known of luminaires beyond the end of the list.
+    let fittings = parts.fittings.iter().copied().chain(std::iter::repeat(Fitting::default()));
+    let mut record = |(l, fitting)| distributions.record(l, fitting, &mut pictures);
+    let luminaires = parts.luminaires.into_iter().zip(fittings).map(&mut record).collect();
     pictures.write(bytes, table);
     SceneRecord {
         name: parts.name,
@@ -86,7 +88,12 @@ struct Distributions {
 }
 
 impl Distributions {
-    fn record(&mut self, luminaire: Luminaire, pictures: &mut Pictures) -> LuminaireRecord {
+    fn record(
+        &mut self,
+        luminaire: Luminaire,
+        fitting: Fitting,
+        pictures: &mut Pictures,
+    ) -> LuminaireRecord {
         let Luminaire { name, group, colour, kind } = luminaire;
         let kind = match kind {
             LuminaireKind::Point { position, world_from_luminaire, intensity, area } => {
@@ -100,7 +107,7 @@ impl Distributions {
                 KindRecord::Sky { world_from_sky, sky: pictures.record(sky) }
             }
         };
-        LuminaireRecord { name, group, colour, kind }
+        LuminaireRecord { name, group, colour, kind, fitting }
     }
 
     fn index(&mut self, intensity: IntensityDistribution) -> u32 {
@@ -148,6 +155,7 @@ pub(super) fn read(record: SceneRecord, arrays: &Arrays<'_>) -> Result<ScenePart
         shapes,
         materials: record.materials,
         textures: textures(&record.textures, arrays)?,
+        fittings: record.luminaires.iter().map(|luminaire| luminaire.fitting).collect(),
         luminaires: record
             .luminaires
             .into_iter()
@@ -225,7 +233,7 @@ fn luminaire(
     distributions: &[IntensityDistribution],
     pictures: &mut Rows,
 ) -> Result<Luminaire, Fault> {
-    let LuminaireRecord { name, group, colour, kind } = record;
+    let LuminaireRecord { name, group, colour, kind, .. } = record;
     let kind = match kind {
         KindRecord::Point { position, world_from_luminaire, distribution, area } => {
             let Some(intensity) = distributions.get(distribution as usize) else {

@@ -133,9 +133,10 @@ fn resolve(
     context.one_of(&entry.span(), &format!("luminaire `{name}`"), &choices)?;
     let light = record.light();
     let colour = chromaticity::given(&light, context);
-    let emission = photometry::emission(&light, files, context);
+    let emission = photometry::emission(&light, files, context)?;
+    let power_w = record.power_w.map(|power| power.0).or(emission.power_w);
     Some(LibraryLight {
-        emission: emission?,
+        emission: Emission { power_w, ..emission },
         colour: colour?,
         maintenance_factor: record.maintenance_factor.map(|m| m.0),
     })

@@ -12,7 +12,9 @@ use super::sky;
 use super::sky_record::LuminancesRecord;
 use super::spans::At;
 use isolux::geometry::{Point, Vector};
-use isolux::scene::{Luminaire, LuminaireKind, Maintenance, SceneParts, world_from_luminaire};
+use isolux::scene::{
+    Fitting, Luminaire, LuminaireKind, Maintenance, SceneParts, world_from_luminaire,
+};
 use isolux::units::Rgb;
 
 /// Light from afar stands below a half-space.
@@ -29,6 +31,7 @@ pub(super) fn add(
     let mut files = Files::default();
     // Luminaires of geometry files are there already, and have no factor.
     let mut factors: Vec<f64> = scene.luminaires.iter().map(|_| 1.0).collect();
+    scene.fittings.resize(scene.luminaires.len(), Fitting::default());
     for (number, entry) in (1..).zip(entries) {
         let record = entry.get_ref();
         let name = record.name.clone().unwrap_or_else(|| format!("luminaire {number}"));
@@ -41,6 +44,7 @@ pub(super) fn add(
             let name = format!("{name}{place}");
             Luminaire { name, group, colour, kind }
         }));
+        scene.fittings.resize(scene.luminaires.len(), found.fitting);
         factors.extend(found.maintenance);
     }
     scene.maintenance = Maintenance::of(factors);
@@ -54,6 +58,7 @@ struct Kinds {
     colour: Option<Rgb>,
     /// The maintenance factor in their light; `None` for the sun, which needs none.
     maintenance: Option<f64>,
+    fitting: Fitting,
 }
 
 fn kinds(
@@ -87,6 +92,7 @@ fn kinds(
             kinds: vec![(String::new(), kind)],
             colour: None,
             maintenance,
+            fitting: Fitting::default(),
         });
     }
     let light = match &record.kind {
@@ -104,8 +110,27 @@ fn kinds(
     let (places, aim) = (places?, aim?);
     let emission =
         Emission { intensity: light.emission.intensity.scaled(factor), ..light.emission };
+    let own = record.power_w.as_ref().map(|power| power.get_ref().0);
+    let emergency_share = emergency_share(record, context);
+    let fitting = Fitting { power_w: own.or(emission.power_w), emergency_share };
     let kinds = points(&places, &aim, &emission, entry, context);
-    Some(Kinds { kinds: kinds?, colour: light.colour, maintenance: Some(light.factor) })
+    let (colour, maintenance) = (light.colour, Some(light.factor));
+    Some(Kinds { kinds: kinds?, colour, maintenance, fitting })
+}
+
+/// The share of its light in emergency lighting.
+fn emergency_share(record: &LuminaireRecord, context: &mut Context) -> Option<f64> {
+    let share = record.emergency_flux_share.as_ref();
+    match (record.emergency.as_ref().map(At::get_ref), share) {
+        (Some(false), Some(share)) => {
+            let what = "`emergency_flux_share` beside `emergency = false`";
+            context.problem(&share.span(), what, "remove one of them");
+            None
+        }
+        (_, Some(share)) => Some(share.get_ref().0),
+        (Some(true), None) => Some(1.0),
+        (Some(false) | None, None) => None,
+    }
 }
 
 /// The light of one luminaire, undimmed.
@@ -173,6 +198,9 @@ fn refuse_without_meaning(
         ("flux_lm", record.flux_lm.as_ref().map(At::span)),
         ("luminous_area", record.luminous_area.as_ref().map(At::span)),
         ("lamp_set", record.lamp_set.as_ref().map(At::span)),
+        ("power_w", record.power_w.as_ref().map(At::span)),
+        ("emergency", record.emergency.as_ref().map(At::span)),
+        ("emergency_flux_share", record.emergency_flux_share.as_ref().map(At::span)),
     ];
     for (key, span) in without_meaning {
         if let Some(span) = span {
@@ -257,7 +285,7 @@ fn places(
 fn points(
     places: &[(String, Point)],
     aim: &Aim,
-    Emission { intensity, area }: &Emission,
+    Emission { intensity, area, .. }: &Emission,
     entry: &At<LuminaireRecord>,
     context: &mut Context,
 ) -> Option<Vec<(String, LuminaireKind)>> {

@@ -18,6 +18,8 @@ pub(super) struct Emission {
     pub(super) intensity: IntensityDistribution,
     /// Where the light leaves from; `None` for a point.
     pub(super) area: Option<LuminousArea>,
+    /// Input power that the photometric file says for this flux, W.
+    pub(super) power_w: Option<f64>,
 }
 
 /// What files hold, each read once.
@@ -67,11 +69,11 @@ pub(super) fn emission(
         .or_else(|| record.cosine.map(|r| cosine(r, context)))
         .or_else(|| record.spot.map(|r| spot(r, context)))
         .flatten()?;
-    Some(Emission { intensity, area: None }.with_area(record.luminous_area))
+    Some(Emission { intensity, area: None, power_w: None }.with_area(record.luminous_area))
 }
 
 impl Emission {
-    /// Rescaled to a flux, where one is given.
+    /// Rescaled to a flux, where one is given: that of other lamps, whose power is not known.
     pub(super) fn with_flux(
         self,
         flux: Option<&At<NonNegative>>,
@@ -79,7 +81,7 @@ impl Emission {
     ) -> Option<Self> {
         let Some(flux) = flux else { return Some(self) };
         let intensity = with_flux(&self.intensity, flux.get_ref().0, &flux.span(), context)?;
-        Some(Self { intensity, ..self })
+        Some(Self { intensity, power_w: None, ..self })
     }
 
     /// From another luminous area, where one is given.
@@ -220,7 +222,8 @@ fn read(
 
 fn read_ies(path: &Path) -> Result<Option<Loaded<Known>>, Problems> {
     let Loaded { value, warnings } = ies::read(path)?;
-    let emission = Emission { intensity: value.resolve()?, area: value.opening.area() };
+    let (intensity, area) = (value.resolve()?, value.opening.area());
+    let emission = Emission { intensity, area, power_w: power_w(value.input_watts) };
     Ok(Some(known(emission, value.doubt_of_flux(), warnings)))
 }
 
@@ -229,8 +232,14 @@ fn read_ldt(path: &Path, set: u32) -> Result<Option<Loaded<Known>>, Problems> {
     let Loaded { value, warnings } = ldt::read(path)?;
     let index = (set as usize).checked_sub(1);
     let Some(set) = index.and_then(|k| value.lamp_sets.get(k)) else { return Ok(None) };
-    let emission = Emission { intensity: value.resolve_with(set)?, area: value.opening().area() };
+    let (intensity, area) = (value.resolve_with(set)?, value.opening().area());
+    let emission = Emission { intensity, area, power_w: power_w(set.watts) };
     Ok(Some(known(emission, value.doubt_of_flux(), warnings)))
+}
+
+/// Files write zero where the power is not known.
+fn power_w(watts: f64) -> Option<f64> {
+    Some(watts).filter(|watts| *watts > 0.0)
 }
 
 /// What concerns every luminaire with a file is said at once.

@@ -182,6 +182,9 @@ pub(super) struct LuminaireRecord {
     pub(super) rotate_deg: Option<At<Number>>,
     pub(super) dimming: Option<NonNegative>,
     pub(super) maintenance_factor: Option<Share>,
+    pub(super) power_w: Option<At<Positive>>,
+    pub(super) emergency: Option<At<bool>>,
+    pub(super) emergency_flux_share: Option<At<Share>>,
     pub(super) colour: Option<At<Colour>>,
     pub(super) cct_k: Option<At<Number>>,
     pub(super) isotropic: Option<At<IsotropicRecord>>,
@@ -226,6 +229,7 @@ pub(super) struct LuminousSizes {
 #[serde(deny_unknown_fields)]
 pub(super) struct LibraryRecord {
     pub(super) maintenance_factor: Option<Share>,
+    pub(super) power_w: Option<Positive>,
     pub(super) colour: Option<At<Colour>>,
     pub(super) cct_k: Option<At<Number>>,
     pub(super) isotropic: Option<At<IsotropicRecord>>,

@@ -5,8 +5,8 @@ use isolux::geometry::{Direction, Point, Transform, Vector};
 use isolux::map::{Accuracy, Fresh, IlluminationMap, Method, Provenance, Standing, VertexLight};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux::scene::{
-    Body, CalculationGrid, Camera, Dielectric, Finish, Gloss, Luminaire, LuminaireKind, Material,
-    Reflectance, Scene, SceneParts, Shape, Texture, UpAxis,
+    Body, CalculationGrid, Camera, Dielectric, Finish, Fitting, Gloss, Luminaire, LuminaireKind,
+    Material, Reflectance, Scene, SceneParts, Shape, Texture, UpAxis,
 };
 use isolux::units::Rgb;
 use std::sync::Arc;
@@ -29,6 +29,7 @@ pub(crate) fn parts() -> SceneParts {
             srgb: (0..18).map(|k| 13 * k + 5).collect(),
         }],
         luminaires: luminaires(),
+        fittings: fittings(),
         maintenance: Some(isolux::scene::Maintenance { least: 0.7, greatest: 0.9 }),
         groups: vec!["general".into(), "task".into()],
         cameras: vec![Camera {
@@ -101,6 +102,14 @@ fn materials() -> Vec<Material> {
         Material::one_sided("panel", emitting),
         Material::two_sided("steel", glossy),
     ]
+}
+
+/// Powers of some luminaires.
+fn fittings() -> Vec<Fitting> {
+    let power = |k: usize| k.is_multiple_of(2).then_some(10.5 * k as f64 + 1.0);
+    (0..luminaires().len())
+        .map(|k| Fitting { power_w: power(k), emergency_share: (k == 3).then_some(0.1) })
+        .collect()
 }
 
 fn luminaires() -> Vec<Luminaire> {

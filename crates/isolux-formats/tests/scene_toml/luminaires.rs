@@ -382,3 +382,78 @@ fn lamp_sets_are_chosen_by_number() {
         assert!(found.contains(expected), "no {expected:?} in {found:?}");
     }
 }
+
+/// The file's power is that of its own flux; what an entry says comes first.
+#[test]
+fn powers_are_those_of_files_unless_given() {
+    let ies = |watts: u32| {
+        format!(
+            "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 {watts}\n0 45 90\n0\n300 200 0\n"
+        )
+    };
+    let (with, without) = (ies(20), ies(0));
+    let powers = |keys: &str| -> Vec<Option<f64>> {
+        let text = format!("[[luminaire]]\nposition = [0,0,1]\n{keys}\n{FLOOR}");
+        let files = [("lamp.ies", with.as_str()), ("none.ies", without.as_str())];
+        let parts = read_with(&text, &files).unwrap().value;
+        let scene = Scene::assemble(parts).unwrap();
+        assert_eq!(scene.to_parts().fittings, scene.fittings());
+        scene.fittings().iter().map(|fitting| fitting.power_w).collect()
+    };
+    for (keys, expected) in [
+        ("ies = 'lamp.ies'", Some(20.0)),
+        ("ies = 'lamp.ies'\ndimming = 0.5", Some(20.0)),
+        ("ies = 'lamp.ies'\nflux_lm = 900", None),
+        ("ies = 'lamp.ies'\nflux_lm = 900\npower_w = 12.5", Some(12.5)),
+        ("ies = 'none.ies'", None),
+        ("isotropic = { flux_lm = 900 }", None),
+        ("isotropic = { flux_lm = 900 }\npower_w = 8", Some(8.0)),
+    ] {
+        assert_eq!(powers(keys), [expected], "{keys}");
+    }
+    let array = "isotropic = { flux_lm = 900 }\npower_w = 8\narray = { count = [2, 1, 1], step = [1, 0, 0] }";
+    assert_eq!(powers(array), [Some(8.0); 2]);
+    for (keys, told) in [
+        ("isotropic = { flux_lm = 1 }\npower_w = 0", "power_w = 0"),
+        ("directional = { illuminance_lx = 1 }\ndirection = [0,0,-1]\npower_w = 3", "`power_w` of"),
+    ] {
+        let position = if keys.starts_with("dir") { "" } else { "position = [0,0,1]\n" };
+        let found = problems(&format!("[[luminaire]]\n{position}{keys}\n{FLOOR}"));
+        assert_eq!(found.len(), 1, "{told}: {found:?}");
+    }
+}
+
+/// What is known of luminaires stays with them where light is taken apart and put together.
+#[test]
+fn powers_and_marks_follow_their_luminaires() {
+    let lamp = |group: &str, more: &str| {
+        format!(
+            "[[luminaire]]\nposition = [0,0,1]\nisotropic = {{ intensity_cd = 100 }}\ngroup = '{group}'\n{more}\n"
+        )
+    };
+    let text = lamp("a", "power_w = 5")
+        + &lamp("b", "power_w = 7\nemergency = true")
+        + &lamp("b", "emergency_flux_share = 0.25");
+    let scene = Scene::assemble(read(&format!("{text}{FLOOR}"))).unwrap();
+    let powers = |scene: &Scene| -> Vec<Option<f64>> {
+        scene.fittings().iter().map(|fitting| fitting.power_w).collect()
+    };
+    assert_eq!(powers(&scene), [Some(5.0), Some(7.0), None]);
+    let [a, b] = [0, 1].map(|group| scene.lit_by(group).unwrap());
+    assert_eq!((powers(&a), powers(&b)), (vec![Some(5.0)], vec![Some(7.0), None]));
+    assert_eq!(powers(&Scene::mixed(&[(&b, 1.0), (&a, 0.5)])), [Some(7.0), None, Some(5.0)]);
+    let emergency = scene.in_emergency().unwrap();
+    let candela = |luminaire: &Luminaire| match &luminaire.kind {
+        LuminaireKind::Point { intensity, .. } => intensity.max_intensity_cd(),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(emergency.luminaires().iter().map(candela).collect::<Vec<_>>(), [100.0, 25.0]);
+    assert!(a.in_emergency().is_none());
+    let reflects = |scene: &Scene| {
+        scene.material(0).finish(false).is_some_and(|f| !f.diffuse.colour.is_black())
+    };
+    assert!(reflects(&scene) && !reflects(&emergency));
+    // What hashes stand for is light.
+    let bare = Scene::assemble(SceneParts { fittings: Vec::new(), ..scene.to_parts() }).unwrap();
+    assert_eq!((bare.hash(), powers(&bare)), (scene.hash(), vec![None; 3]));
+}

@@ -148,6 +148,8 @@ class Map:
         spacing: float | None = None,
         border: float | None = None,
         maintenance_factor: float | None = None,
+        quantity: str | None = None,
+        facing: float | None = None,
         picture: Path | None = None,
         csv: Path | None = None,
     ) -> Grid:
@@ -156,7 +158,8 @@ class Map:
         The grid is one of the scene by its ``name`` (which may be left out if there is one), a working plane over all of the floor
         plan at a ``height``, or given by a ``corner`` and its sides ``u`` and ``v``, facing u x v. Lengths are metres. ``spacing`` is
         that of EN 12464-1 unless given; ``border`` is the band along the sides that is left out. ``maintenance_factor`` is the share
-        of the initial light that is left. ``picture`` (.png, .svg) gets a plan with the values, ``csv`` all points.
+        of the initial light that is left. ``quantity`` is ``illuminance`` unless given, else ``cylindrical``, ``semi-cylindrical``
+        (which looks the way of ``facing``, degrees from x by the left in plan), ``hemispherical`` or ``modelling``. ``picture`` (.png, .svg) gets a plan with the values, ``csv`` all points.
         """
         own = height is not None or corner is not None
         if name is None and not own and len(self.scene.grids) > 1:
@@ -171,6 +174,8 @@ class Map:
             spacing=spacing,
             border=border,
             maintenance_factor=maintenance_factor,
+            quantity=quantity,
+            facing=facing,
             picture=picture,
             csv=csv,
         )

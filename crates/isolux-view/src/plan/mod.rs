@@ -82,7 +82,7 @@ pub struct Plan<'a> {
 /// What a plan shows at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanPoint {
-    /// The value, lx; `None` where it is not known, and outside of the room.
+    /// The value, lx, or a ratio of such; `None` where it is not known, and outside of the room.
     pub illuminance_lx: Option<f64>,
     /// Its standard error, lx.
     pub standard_error_lx: f64,

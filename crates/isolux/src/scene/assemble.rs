@@ -1,8 +1,8 @@
 //! From plain parts to a scene that cannot be invalid.
 
 use super::{
-    AreaLuminaire, Body, CalculationGrid, Camera, Finish, Luminaire, LuminaireKind, Maintenance,
-    Material, SceneParts, SceneProblem, Shape, Texture, UpAxis,
+    AreaLuminaire, Body, CalculationGrid, Camera, Finish, Fitting, Luminaire, LuminaireKind,
+    Maintenance, Material, SceneParts, SceneProblem, Shape, Texture, UpAxis,
 };
 use super::{mounted, origin, sealed};
 use crate::units::Rgb;
@@ -27,11 +27,18 @@ pub struct Scene {
     materials: Vec<Material>,
     textures: Vec<Texture>,
     luminaires: Vec<Luminaire>,
+    fittings: Vec<Fitting>,
     maintenance: Option<Maintenance>,
     area_luminaires: Vec<AreaLuminaire>,
     groups: Vec<String>,
     cameras: Vec<Camera>,
     grids: Vec<CalculationGrid>,
+}
+
+/// One for each luminaire, with nothing known where there was none.
+fn of_each(luminaires: &[Luminaire], mut fittings: Vec<Fitting>) -> Vec<Fitting> {
+    fittings.resize(luminaires.len(), Fitting::default());
+    fittings
 }
 
 impl Scene {
@@ -54,6 +61,7 @@ impl Scene {
         let geometric_normals: Vec<Normal> = (0..mesh.len() as u32).map(normal).collect();
         let bvh = Bvh::build(mesh, is_transparent);
         let luminaires = mounted::before_surfaces(&bvh, &geometric_normals, parts.luminaires);
+        let fittings = of_each(&luminaires, parts.fittings);
         let mut scene = Self {
             geometric_normals,
             bvh,
@@ -68,6 +76,7 @@ impl Scene {
             materials: parts.materials,
             textures: parts.textures,
             luminaires,
+            fittings,
             maintenance: parts.maintenance,
             area_luminaires: Vec::new(),
             groups: parts.groups,
@@ -97,6 +106,7 @@ impl Scene {
             materials: self.materials.clone(),
             textures: self.textures.clone(),
             luminaires: self.luminaires.clone(),
+            fittings: self.fittings.clone(),
             maintenance: self.maintenance,
             groups: self.groups.clone(),
             cameras: self.cameras.clone(),
@@ -111,7 +121,8 @@ impl Scene {
         groups: Vec<String>,
         materials: Vec<Material>,
     ) -> Self {
-        let mut scene = Self { luminaires, groups, materials, ..self.clone() };
+        let fittings = of_each(&luminaires, Vec::new());
+        let mut scene = Self { luminaires, fittings, groups, materials, ..self.clone() };
         scene.area_luminaires = scene.find_area_luminaires();
         scene
     }
@@ -233,6 +244,16 @@ impl Scene {
     /// Luminaires without surface.
     pub fn luminaires(&self) -> &[Luminaire] {
         &self.luminaires
+    }
+
+    /// What is known of each luminaire beside its light.
+    pub fn fittings(&self) -> &[Fitting] {
+        &self.fittings
+    }
+
+    /// The same scene with this known of its luminaires.
+    pub(super) fn fitted(self, fittings: Vec<Fitting>) -> Self {
+        Self { fittings: of_each(&self.luminaires, fittings), ..self }
     }
 
     /// The same scene with other maintenance factors within its light.

@@ -19,6 +19,24 @@ pub struct Luminaire {
     pub kind: LuminaireKind,
 }
 
+/// What a luminaire is beside its light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Fitting {
+    /// Input power when it is not dimmed, W; `None` where it is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub power_w: Option<f64>,
+    /// The share of its light in emergency lighting; `None` if it is not part of that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub emergency_share: Option<f64>,
+}
+
+impl Fitting {
+    /// Whether nothing is known.
+    pub fn is_unknown(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 impl LuminaireKind {
     /// Its luminous area; `None` for a point and for parallel light.
     pub const fn area(&self) -> Option<&LuminousArea> {

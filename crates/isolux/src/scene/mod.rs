@@ -30,7 +30,7 @@ pub use assemble::Scene;
 pub use bounded::{Lowered, MOST_REFLECTANCE};
 pub use grid::CalculationGrid;
 pub use hanging::world_from_luminaire;
-pub use luminaire::{AreaLuminaire, Luminaire, LuminaireKind, Maintenance};
+pub use luminaire::{AreaLuminaire, Fitting, Luminaire, LuminaireKind, Maintenance};
 pub use luminous_area::{AreaShape, LuminousArea};
 pub use material::{Body, Coat, Dielectric, Finish, Gloss, Material, Reflectance};
 pub use north::world_from_sky;

@@ -1,6 +1,6 @@
 //! The plain description that readers fill.
 
-use super::{CalculationGrid, Camera, Luminaire, Maintenance, Material, Texture};
+use super::{CalculationGrid, Camera, Fitting, Luminaire, Maintenance, Material, Texture};
 use isolux_geometry::Direction;
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +19,8 @@ pub struct SceneParts {
     pub textures: Vec<Texture>,
     /// Luminaires without surface.
     pub luminaires: Vec<Luminaire>,
+    /// What is known of each beside its light; of those beyond its end nothing is.
+    pub fittings: Vec<Fitting>,
     /// The maintenance factors within the light of the luminaires; `None` where all of it is initial.
     pub maintenance: Option<Maintenance>,
     /// Names of light groups; luminaires without one are in group 0.

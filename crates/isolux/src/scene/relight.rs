@@ -1,6 +1,6 @@
 //! The same surfaces in other light.
 
-use super::{Body, Finish, Luminaire, LuminaireKind, Maintenance, Material, Scene};
+use super::{Body, Finish, Fitting, Luminaire, LuminaireKind, Maintenance, Material, Scene};
 use crate::photometry::{IntensityDistribution, PhotometricWeb};
 use crate::units::Rgb;
 use std::sync::Arc;
@@ -12,11 +12,12 @@ impl Scene {
     /// The same scene with the light of one group alone; surfaces that shine are in the first. `None` where
     /// there is no such light.
     pub fn lit_by(&self, group: u32) -> Option<Self> {
-        let luminaires: Vec<Luminaire> =
-            self.luminaires().iter().filter(|l| l.group == group).cloned().collect();
+        let all = self.luminaires().iter().zip(self.fittings());
+        let (luminaires, fittings): (Vec<Luminaire>, Vec<Fitting>) =
+            all.filter(|(l, _)| l.group == group).map(|(l, of)| (l.clone(), *of)).unzip();
         let shine = if group == UNGROUPED { 1.0 } else { 0.0 };
         let materials = self.materials().iter().map(|m| shining(m, [(m, shine)])).collect();
-        let scene = self.relit(luminaires, self.groups().to_vec(), materials);
+        let scene = self.relit(luminaires, self.groups().to_vec(), materials).fitted(fittings);
         let is_lit = !scene.luminaires().is_empty() || !scene.area_luminaires().is_empty();
         is_lit.then_some(scene)
     }
@@ -26,6 +27,21 @@ impl Scene {
     pub fn below(&self, luminaire: Luminaire) -> Self {
         let materials = self.materials().iter().map(|m| shining(m, [(m, 0.0)])).collect();
         self.relit(vec![Luminaire { group: 0, ..luminaire }], Vec::new(), materials)
+    }
+
+    /// The same surfaces, which reflect and emit nothing, in the light of emergency lighting alone; `None` if no luminaire is part
+    /// of that.
+    pub fn in_emergency(&self) -> Option<Self> {
+        let share = |(luminaire, fitting): (&Luminaire, &Fitting)| {
+            let mut dimmer = Dimmer { factor: fitting.emergency_share?, webs: Vec::new() };
+            let kind = dimmer.dimmed(&luminaire.kind);
+            Some((Luminaire { kind, ..luminaire.clone() }, *fitting))
+        };
+        let all = self.luminaires().iter().zip(self.fittings()).filter_map(share);
+        let (luminaires, fittings): (Vec<Luminaire>, Vec<Fitting>) = all.unzip();
+        let is_lit = !luminaires.is_empty();
+        let materials = self.materials().iter().map(black).collect();
+        is_lit.then(|| self.relit(luminaires, self.groups().to_vec(), materials).fitted(fittings))
     }
 
     /// The surfaces of the first of several scenes in the light of all of them, each times a factor >= 0.
@@ -38,11 +54,12 @@ impl Scene {
     pub fn mixed(parts: &[(&Self, f64)]) -> Self {
         let (first, _) = parts[0];
         let mut groups: Vec<String> = Vec::new();
-        let mut luminaires = Vec::new();
+        let (mut luminaires, mut fittings) = (Vec::new(), Vec::new());
         for &(scene, factor) in parts.iter().filter(|(_, factor)| *factor > 0.0) {
             let own = [scene.name().to_owned()];
             let names = if scene.groups().is_empty() { &own } else { scene.groups() };
             let numbers: Vec<u32> = names.iter().map(|name| number(&mut groups, name)).collect();
+            fittings.extend_from_slice(scene.fittings());
             let mut dimmer = Dimmer { factor, webs: Vec::new() };
             luminaires.extend(scene.luminaires().iter().map(|luminaire| Luminaire {
                 group: numbers[luminaire.group as usize],
@@ -58,7 +75,7 @@ impl Scene {
         let factors =
             parts.iter().flat_map(|(scene, _)| scene.maintenance().map_or([1.0; 2], range));
         let maintenance = Maintenance::of(factors);
-        first.relit(luminaires, groups, materials).maintained(maintenance)
+        first.relit(luminaires, groups, materials).fitted(fittings).maintained(maintenance)
     }
 }
 
@@ -83,6 +100,15 @@ fn shining<'a>(
         Finish { luminance_cd_m2: light.sum::<Rgb>(), ..finish.clone() }
     };
     let body = Body::Opaque { front: side(front, false), back: side(back, true) };
+    Material { body, ..material.clone() }
+}
+
+/// A material without light of its own or of others; panes let light pass all the same.
+fn black(material: &Material) -> Material {
+    let body = match &material.body {
+        Body::Opaque { .. } => Body::Opaque { front: Finish::BLACK, back: Finish::BLACK },
+        glass @ Body::Dielectric(_) => glass.clone(),
+    };
     Material { body, ..material.clone() }
 }
 

@@ -105,15 +105,24 @@ pub fn put_sky(
         context.findings.warning("", what, "nothing needs to be done if that is meant");
     }
     let loaded = context.finish(found)?;
-    let before = (parts.luminaires.clone(), parts.groups.clone());
-    parts.luminaires.retain(|l| !l.kind.is_infinitely_far());
+    let before = (parts.luminaires.clone(), parts.fittings.clone(), parts.groups.clone());
+    leave_out_far(parts);
     groups::put(parts, loaded.value);
     if let Err(problems) = bounds::check(path, parts) {
-        (parts.luminaires, parts.groups) = before;
+        (parts.luminaires, parts.fittings, parts.groups) = before;
         return Err(problems);
     }
     let in_words = matches!(asked, SkyAsked::Lines(_));
     Ok(loaded.warnings.into_iter().map(|w| without_place(w, in_words)).collect())
+}
+
+/// Takes out what is infinitely far away.
+fn leave_out_far(parts: &mut SceneParts) {
+    let is_near: Vec<bool> = parts.luminaires.iter().map(|l| !l.kind.is_infinitely_far()).collect();
+    let mut is_kept = is_near.iter();
+    parts.luminaires.retain(|_| *is_kept.next().unwrap_or(&true));
+    let mut is_kept = is_near.iter();
+    parts.fittings.retain(|_| *is_kept.next().unwrap_or(&true));
 }
 
 /// Words have no lines.

@@ -2,7 +2,7 @@
 
 use super::numbers::shortest;
 use isolux::geometry::{Point, Vector};
-use isolux::scene::{Luminaire, LuminaireKind};
+use isolux::scene::{Fitting, Luminaire, LuminaireKind};
 
 /// Luminaires that differ in position and number only.
 pub(super) struct Run<'a> {
@@ -13,17 +13,23 @@ pub(super) struct Run<'a> {
     pub(super) array: Option<([u32; 3], [f64; 3])>,
 }
 
-/// The luminaires from the first on that one entry can say, and how many they are.
-pub(super) fn next_run(luminaires: &[Luminaire]) -> Option<(Run<'_>, usize)> {
+/// The luminaires from the first on that one entry can say, with the same known of each, and how many they are.
+pub(super) fn next_run<'a>(
+    luminaires: &'a [Luminaire],
+    fittings: &[Fitting],
+) -> Option<(Run<'a>, usize)> {
     let first = luminaires.first()?;
     let alone = (Run { name: &first.name, first, array: None }, 1);
     let Some((name, [0, 0, 0])) = numbered(&first.name) else { return Some(alone) };
     let named = |l: &&Luminaire| numbered(&l.name).is_some_and(|(base, _)| base == name);
     let length = luminaires.iter().take_while(named).count();
     let run = &luminaires[..length];
+    let fitting = |k: usize| fittings.get(k).copied().unwrap_or_default();
+    let are_alike = (0..length).all(|k| fitting(k) == fitting(0));
     let counts =
         run.last().and_then(|last| numbered(&last.name)).map(|(_, ijk)| ijk.map(|k| k + 1));
-    let array = counts.and_then(|counts| Some((counts, steps_m(run, counts)?)));
+    let array =
+        counts.filter(|_| are_alike).and_then(|counts| Some((counts, steps_m(run, counts)?)));
     Some(match array {
         Some(array) => (Run { name, first, array: Some(array) }, length),
         None => alone,

@@ -8,7 +8,7 @@ use super::text::{colour, number, quoted, triple};
 use isolux::geometry::{Direction, Transform, Vector};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{
-    AreaShape, LuminaireKind, LuminousArea, SceneParts, UpAxis, world_from_luminaire,
+    AreaShape, Fitting, LuminaireKind, LuminousArea, SceneParts, UpAxis, world_from_luminaire,
 };
 use isolux::units::Rgb;
 
@@ -18,14 +18,17 @@ pub(super) fn text(parts: &SceneParts, catalogue: &Catalogue) -> String {
         toml += &format!("\n[[group]]\nname = {}\n", quoted(group));
     }
     let mut rest = &parts.luminaires[..];
-    while let Some((run, length)) = next_run(rest) {
-        toml += &entry(parts, &run, catalogue);
+    let mut fittings = &parts.fittings[..];
+    while let Some((run, length)) = next_run(rest, fittings) {
+        let fitting = fittings.first().copied().unwrap_or_default();
+        toml += &entry(parts, &run, fitting, catalogue);
         rest = &rest[length..];
+        fittings = &fittings[length.min(fittings.len())..];
     }
     toml
 }
 
-fn entry(parts: &SceneParts, run: &Run, catalogue: &Catalogue) -> String {
+fn entry(parts: &SceneParts, run: &Run, fitting: Fitting, catalogue: &Catalogue) -> String {
     let mut toml = String::from("\n[[luminaire]]\n");
     let mut line = |key: &str, value: String| toml += &format!("{key} = {value}\n");
     line("name", quoted(run.name));
@@ -34,6 +37,12 @@ fn entry(parts: &SceneParts, run: &Run, catalogue: &Catalogue) -> String {
     }
     if run.first.colour != Rgb::WHITE {
         line("colour", colour(run.first.colour));
+    }
+    if let Some(power_w) = fitting.power_w {
+        line("power_w", number(power_w));
+    }
+    if let Some(share) = fitting.emergency_share {
+        line("emergency_flux_share", number(share));
     }
     match &run.first.kind {
         LuminaireKind::Directional { direction, illuminance_lx, half_angle_rad } => {

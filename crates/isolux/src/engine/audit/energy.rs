@@ -58,8 +58,8 @@ pub fn energy_balance(
     let went: Vec<Went> = (0..REPLICATES).into_par_iter().map(flown).collect();
     let mapped = mapped(scene, map);
     let flux = |of: &dyn Fn(&Went) -> f64| measured(went.iter().map(of));
-    let [mapped_lm, area_m2] =
-        [|of: &Mapped| of.lm, |of: &Mapped| of.area_m2].map(|read| mapped.iter().map(read).sum());
+    let mapped_lm: f64 = mapped.iter().map(|of| of.lm).sum();
+    let area_m2: f64 = mapped.iter().map(|of| of.area_m2).sum();
     let error_lx = map
         .provenance
         .accuracy

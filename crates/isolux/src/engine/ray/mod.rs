@@ -8,6 +8,7 @@ mod path;
 mod place;
 pub(crate) mod reflectance;
 mod scatter;
+mod sensor;
 mod short_rays;
 mod surface;
 
@@ -24,5 +25,6 @@ pub(crate) use place::{INWARD_ROUNDINGS, Places, place_key};
 pub(crate) use scatter::{Scattered, luminance_ratio, pane};
 #[cfg(test)]
 pub(crate) use scatter::{reflect, refract, specular_share};
+pub use sensor::Sensor;
 pub(crate) use short_rays::ShortRays;
 pub(crate) use surface::{COPLANAR_COS, Stand, SurfacePoint};

@@ -1,6 +1,7 @@
 //! The parts of the engines, each against what can be computed by hand.
 
 mod aiming;
+mod all_round;
 mod ambient;
 mod anderson;
 mod arrivals;

@@ -4,7 +4,7 @@ use super::super::far_sky::{FarSky, on_disc};
 use super::super::lighting::Lighting;
 use super::super::sources::{LuminaireId, Source, SourceKind, Target, facing_cos};
 use super::measured::mean;
-use crate::engine::ray::{Dice, SurfacePoint};
+use crate::engine::ray::{Dice, Sensor, SurfacePoint};
 use crate::units::Rgb;
 use isolux_geometry::Direction;
 
@@ -45,6 +45,11 @@ impl<'a> Disc<'a> {
             }
             _ => None,
         }
+    }
+
+    /// The mean cosine of its places at a surface that faces the middle, which sees the border at an angle.
+    fn facing(&self) -> f64 {
+        0.5 * (1.0 + libm::cos(self.half_angle_rad))
     }
 
     /// Its light where nothing is before it, as if all came from its middle, lx.
@@ -127,8 +132,23 @@ impl Lighting<'_> {
             };
             self.visibility(&disc.source.chain, at, Target::Infinity(towards), None) * cos
         };
-        // A surface that faces the middle sees its border at an angle: the mean cosine there is this.
-        let facing = 0.5 * (1.0 + libm::cos(disc.half_angle_rad));
-        disc.source.colour * mean(samples, dice, one) * (disc.illuminance_lx / facing)
+        disc.source.colour * mean(samples, dice, one) * (disc.illuminance_lx / disc.facing())
+    }
+    /// Mean illuminance of a sensor from a disc, by `samples` shadow rays to places of it.
+    pub(super) fn disc_all_round(
+        &self,
+        disc: Disc<'_>,
+        (at, sensor): (&SurfacePoint, &Sensor),
+        samples: usize,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let one = |dice: &mut Dice| {
+            let towards = on_disc(disc.middle, disc.half_angle_rad, dice.pair());
+            let normal = towards.to_normal();
+            let at = SurfacePoint { geometric: normal, shading: normal, ..*at };
+            let share = self.visibility(&disc.source.chain, &at, Target::Infinity(towards), None);
+            share * sensor.share(towards)
+        };
+        disc.source.colour * mean(samples, dice, one) * (disc.illuminance_lx / disc.facing())
     }
 }

@@ -1,6 +1,7 @@
 //! Sampling of luminaires and of places on them.
 
 mod adaptive;
+mod all_round;
 pub(super) mod area;
 mod clusters;
 mod estimate;

@@ -2,6 +2,7 @@
 
 mod effort;
 mod local_error;
+mod on_sensor;
 mod parts;
 mod pictured;
 mod shared_noise;
