@@ -1,10 +1,12 @@
 //! Arguments as written.
 
+mod budget;
 mod render;
 mod report;
 mod shown;
 mod solve;
 
+pub(crate) use budget::{BudgetFlags, InputFlags};
 pub(crate) use render::{
     EyeFlags, LookFlags, RadianceFlags, RenderFlags, ToneName, with_two_dashes,
 };
@@ -78,6 +80,8 @@ pub(crate) enum Command {
     Daylight(DaylightFlags),
     /// Write a lighting report: plans, luminaires, figures with intervals, requirements, a year of daylight; as HTML or PDF
     Report(Box<ReportFlags>),
+    /// What illuminances on grids may be off by as fluxes and reflectances may be
+    Budget(BudgetFlags),
     /// Compute the light of a scene and write it for an engine: solve and export in one
     Bake(BakeFlags),
     /// Draw views from a map, or of a scene
@@ -139,6 +143,7 @@ impl Command {
             Self::Grid(flags) => (&flags.source, &flags.further),
             Self::Daylight(flags) => (&flags.source, &flags.further),
             Self::Report(flags) => (&flags.source, &flags.further),
+            Self::Budget(flags) => (&flags.source, &flags.further),
             Self::Probe(flags) => (&flags.source, &flags.further),
             _ => return None,
         };

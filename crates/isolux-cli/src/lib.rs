@@ -9,6 +9,7 @@ mod arriving;
 mod audit;
 mod bake;
 mod beside;
+mod budget;
 mod cache_samples;
 mod cached_view;
 mod caller;
@@ -126,6 +127,7 @@ fn carry_out(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Grid(flags) => grid::run(flags, json),
         Command::Daylight(flags) => annual::run(flags, json),
         Command::Glare(flags) => glare::run(flags, json),
+        Command::Budget(flags) => budget::run(flags, json),
         Command::Report(flags) => lighting_report::run(flags, json),
         Command::Bake(flags) => bake::run(flags, json),
         Command::Export(flags) => export::run(flags, json),

@@ -11,9 +11,9 @@ mod typst;
 mod words;
 
 pub use report::{
-    Area, Attachment, Condition, Daylight, DaylightArea, Finding, Glare, Image, Luminaire,
-    LuminousBody, Maintenance, Observer, Project, Quantity, Report, Requirement, Scene, Severity,
-    Surface, View,
+    Area, Attachment, Budget, BudgetLine, Condition, Daylight, DaylightArea, Finding, Glare, Image,
+    Luminaire, LuminousBody, Maintenance, Observer, Project, Quantity, Report, Requirement, Scene,
+    Severity, Surface, UncertainInput, View,
 };
 pub use words::{Language, PlanWords};
 

@@ -108,6 +108,45 @@ pub struct Area {
     pub outside: usize,
     /// What has to hold on it.
     pub requirements: Vec<Requirement>,
+    /// What its mean may be off by, where inputs are uncertain.
+    pub budget: Option<Budget>,
+}
+
+/// What the mean of a grid may be off by, at 95 %, in the manner of the GUM (JCGM 100).
+#[derive(Clone, Debug)]
+pub struct Budget {
+    /// The mean with all inputs, lx.
+    pub with_inputs_lx: Figure,
+    /// Its lines.
+    pub lines: Vec<BudgetLine>,
+}
+
+/// A line of a budget.
+#[derive(Clone, Debug)]
+pub struct BudgetLine {
+    /// Where it comes from.
+    pub source: UncertainInput,
+    /// What the input may be off by, relative; `None` of the calculation.
+    pub input: Option<f64>,
+    /// What the mean may be off by for it, lx.
+    pub half_lx: f64,
+    /// Its share of the variance.
+    pub share: f64,
+}
+
+/// Where an uncertainty comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum UncertainInput {
+    /// The calculation.
+    Calculation,
+    /// Luminous flux, of a group if it has a name.
+    Flux(Option<String>),
+    /// The maintenance factor.
+    Maintenance,
+    /// The reflectance of a material.
+    Reflectance(String),
+    /// Those of all other materials.
+    OtherReflectances,
 }
 
 /// Something that has to hold, and what came of it.

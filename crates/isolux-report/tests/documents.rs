@@ -2,9 +2,9 @@
 
 use isolux::map::{Figure, GridFigures, Verdict};
 use isolux_report::{
-    Area, Condition, Daylight, DaylightArea, Finding, Glare, Image, Language, Luminaire,
-    LuminousBody, Maintenance, Observer, Project, Quantity, Report, Requirement, Scene, Severity,
-    Surface, View, html, typst,
+    Area, Budget, BudgetLine, Condition, Daylight, DaylightArea, Finding, Glare, Image, Language,
+    Luminaire, LuminousBody, Maintenance, Observer, Project, Quantity, Report, Requirement, Scene,
+    Severity, Surface, UncertainInput, View, html, typst,
 };
 
 const HOSTILE: &str = "a \"b\" <script>alert(1)</script> & #panic(\"x\") \\ $x$ \u{1}";
@@ -50,6 +50,15 @@ fn area() -> Area {
             requirement(Quantity::Uniformity, 0.6, figures.uniformity),
             requirement(Quantity::Least, 400.0, figures.least_lx),
         ],
+        budget: Some(Budget {
+            with_inputs_lx: figure(512.3, 40.0),
+            lines: vec![BudgetLine {
+                source: UncertainInput::Reflectance("walls".into()),
+                input: Some(0.1),
+                half_lx: 12.0,
+                share: 0.2,
+            }],
+        }),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Arguments of `isolux report`.
 
-use super::GridChoice;
 use super::solve::FURTHER_HELP;
+use super::{GridChoice, InputFlags};
 use crate::quantity;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -57,6 +57,8 @@ pub(crate) struct ReportFlags {
     /// What has to hold on a grid, or on all, beside what the scene requires: "desks: Em >= 500, U0 >= 0.6", or "desks: EN 12464-1 34.2"
     #[arg(long, value_name = "WHAT")]
     pub require: Vec<String>,
+    #[command(flatten)]
+    pub inputs: InputFlags,
     #[command(flatten)]
     pub year: YearFlags,
 }

@@ -1,6 +1,8 @@
 //! Calculation grids of a report.
 
+use crate::budget;
 use crate::failure::Failure;
+use crate::flags::InputFlags;
 use crate::grid::Asked;
 use crate::grid::picture::height_m;
 use crate::grid::requirement::{Judged, of_grid};
@@ -10,15 +12,21 @@ use isolux::engine::MapReader;
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::{CalculationGrid, GridQuantity, Scene};
 use isolux::units::to_error;
-use isolux_report::{Area, Condition, Image, Language, Quantity, Requirement};
+use isolux_report::{
+    Area, Budget, BudgetLine, Condition, Image, Language, Quantity, Requirement, UncertainInput,
+};
 use isolux_view::{Plan, PlanPoint, PlanWords};
 
 pub(super) fn of(
     (scene, map): (&Scene, &IlluminationMap),
     grids: &[CalculationGrid],
-    language: Language,
+    (inputs, language): (&InputFlags, Language),
 ) -> Result<Vec<Area>, Failure> {
-    read((scene, map), grids).iter().map(|result| area(scene, result, language)).collect()
+    let area = |result: &GridResult| {
+        let area = area(scene, result, language)?;
+        Ok(Area { budget: budgeted(scene, result, inputs)?, ..area })
+    };
+    read((scene, map), grids).iter().map(area).collect()
 }
 
 /// The grids on a map.
@@ -60,7 +68,35 @@ fn area(scene: &Scene, result: &GridResult, language: Language) -> Result<Area, 
         error_lx: errors_lx.get(errors_lx.len() / 2).copied().unwrap_or(0.0),
         outside: result.outside.count(),
         requirements: judged.map(|judged| required(&judged)).collect(),
+        budget: None,
     })
+}
+
+/// `None` where no input is uncertain, or nothing is known.
+fn budgeted(
+    scene: &Scene,
+    result: &GridResult,
+    inputs: &InputFlags,
+) -> Result<Option<Budget>, Failure> {
+    let known = result.read.figures.filter(|_| !inputs.is_empty());
+    let Some(figures) = known else { return Ok(None) };
+    let found = budget::of(scene, &result.read.grid, inputs, Some(figures.mean_lx))?;
+    let line = |line: &budget::Line| BudgetLine {
+        source: match &line.source {
+            budget::Source::Calculation => UncertainInput::Calculation,
+            budget::Source::Flux(group) => UncertainInput::Flux(group.as_deref().map(name)),
+            budget::Source::Maintenance => UncertainInput::Maintenance,
+            budget::Source::Reflectance(material) => UncertainInput::Reflectance(name(material)),
+            budget::Source::OtherReflectances => UncertainInput::OtherReflectances,
+        },
+        input: line.input,
+        half_lx: line.half_lx,
+        share: line.share,
+    };
+    Ok(Some(Budget {
+        with_inputs_lx: found.with_inputs_lx,
+        lines: found.lines.iter().map(line).collect(),
+    }))
 }
 
 fn required(judged: &Judged) -> Requirement {

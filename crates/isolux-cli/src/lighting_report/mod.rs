@@ -123,7 +123,7 @@ fn report(flags: &ReportFlags, opened: &Opened, language: Language) -> Result<Re
     let daylight = year::of(&flags.year, scene, grids, language)?;
     let lit = map.as_ref().map(|map| (scene, map));
     let areas = match lit {
-        Some(lit) => areas::of(lit, grids, language)?,
+        Some(lit) => areas::of(lit, grids, (&flags.inputs, language))?,
         None => Vec::new(),
     };
     let (views, glare) = match lit {

@@ -2,7 +2,7 @@
 
 use super::LEAST_LX;
 use crate::document::{Block, Picture, Section, Table, numbers, row, words};
-use crate::report::{Area, Maintenance, Report};
+use crate::report::{Area, Budget, BudgetLine, Maintenance, Report, UncertainInput};
 use crate::words::{Words, fill};
 
 /// Columns of values that a page takes.
@@ -39,6 +39,7 @@ fn blocks(area: &Area, maintenance: Maintenance, language: &Words) -> Vec<Block>
             let places = [("mean", &*mean), ("direct", &direct), ("indirect", &indirect)];
             blocks.push(Block::Text(fill(says.sentence, &places)));
             blocks.push(values(area, language));
+            blocks.extend(area.budget.iter().flat_map(|of| budget(of, language)));
         }
     }
     blocks
@@ -72,6 +73,36 @@ fn facts(area: &Area, maintenance: Maintenance, language: &Words) -> Vec<(String
         facts.push((says.outside.to_owned(), area.outside.to_string()));
     }
     facts
+}
+
+/// What the mean may be off by.
+fn budget(of: &Budget, language: &Words) -> [Block; 2] {
+    let says = &language.budget;
+    let source = |line: &BudgetLine| match &line.source {
+        UncertainInput::Calculation => says.calculation.to_owned(),
+        UncertainInput::Flux(None) => says.flux.to_owned(),
+        UncertainInput::Flux(Some(name)) => fill(says.flux_of, &[("name", name)]),
+        UncertainInput::Maintenance => says.maintenance.to_owned(),
+        UncertainInput::Reflectance(name) => fill(says.reflectance, &[("name", name)]),
+        UncertainInput::OtherReflectances => says.other_reflectances.to_owned(),
+    };
+    let line = |line: &BudgetLine| {
+        row([
+            source(line),
+            line.input.map_or(language.unknown.to_owned(), |share| language.share(share)),
+            language.to_error(line.half_lx, 0.1 * line.half_lx),
+            format!("{} %", language.fixed(100.0 * line.share, 0)),
+        ])
+    };
+    let [first, rest @ ..] = says.columns;
+    let table = Table {
+        caption: says.caption.to_owned(),
+        columns: [words(first)].into_iter().chain(rest.into_iter().map(numbers)).collect(),
+        rows: of.lines.iter().map(line).collect(),
+        is_dense: false,
+    };
+    let mean = language.figure(of.with_inputs_lx, LEAST_LX);
+    [Block::Table(table), Block::Text(fill(says.together, &[("mean", &mean)]))]
 }
 
 /// The values as they lie on the plan: the last row of points on top.

@@ -1,7 +1,7 @@
 //! The report in English.
 
 use super::{
-    AccuracyWords, AreaWords, AssumptionWords, CoverWords, DaylightWords, GlareWords,
+    AccuracyWords, AreaWords, AssumptionWords, BudgetWords, CoverWords, DaylightWords, GlareWords,
     LuminaireWords, PlanWords, ResultWords, ViewWords, Words,
 };
 
@@ -70,6 +70,17 @@ pub(super) const WORDS: Words = Words {
         values_caption: "Illuminance at the points, lx; the standard error of a value is about {error} lx",
         too_many: "The grid has too many points for a table on paper; `isolux grid --csv` writes all of them.",
         row: "Row",
+    },
+    budget: BudgetWords {
+        caption: "What the mean may be off by (GUM, at 95 %)",
+        columns: ["Source", "Input, \u{b1}", "Em, \u{b1} lx", "Of the variance"],
+        calculation: "Calculation",
+        flux: "Luminous flux",
+        flux_of: "Luminous flux of {name}",
+        maintenance: "Maintenance factor",
+        reflectance: "Reflectance of {name}",
+        other_reflectances: "Reflectances of all other materials",
+        together: "With all of these the mean is {mean} lx.",
     },
     luminaires: LuminaireWords {
         title: "Luminaires",

@@ -1,7 +1,7 @@
 //! The report in German.
 
 use super::{
-    AccuracyWords, AreaWords, AssumptionWords, CoverWords, DaylightWords, GlareWords,
+    AccuracyWords, AreaWords, AssumptionWords, BudgetWords, CoverWords, DaylightWords, GlareWords,
     LuminaireWords, PlanWords, ResultWords, ViewWords, Words,
 };
 
@@ -70,6 +70,17 @@ pub(super) const WORDS: Words = Words {
         values_caption: "Beleuchtungsstärke an den Punkten, lx; der Standardfehler eines Wertes ist etwa {error} lx",
         too_many: "Das Raster hat zu viele Punkte für eine Tabelle auf Papier; `isolux grid --csv` schreibt alle.",
         row: "Reihe",
+    },
+    budget: BudgetWords {
+        caption: "Unsicherheit des Mittelwertes (GUM, 95 %)",
+        columns: ["Quelle", "Eingabe, \u{b1}", "Em, \u{b1} lx", "Anteil an der Varianz"],
+        calculation: "Berechnung",
+        flux: "Lichtstrom",
+        flux_of: "Lichtstrom von {name}",
+        maintenance: "Wartungsfaktor",
+        reflectance: "Reflexionsgrad von {name}",
+        other_reflectances: "Reflexionsgrade aller anderen Materialien",
+        together: "Mit all diesen beträgt der Mittelwert {mean} lx.",
     },
     luminaires: LuminaireWords {
         title: "Leuchten",

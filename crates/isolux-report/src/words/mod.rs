@@ -49,6 +49,7 @@ pub(crate) struct Words {
     pub(crate) cover: CoverWords,
     pub(crate) results: ResultWords,
     pub(crate) areas: AreaWords,
+    pub(crate) budget: BudgetWords,
     pub(crate) luminaires: LuminaireWords,
     pub(crate) daylight: DaylightWords,
     pub(crate) glare: GlareWords,
@@ -128,6 +129,22 @@ pub(crate) struct AreaWords {
     pub(crate) values_caption: &'static str,
     pub(crate) too_many: &'static str,
     pub(crate) row: &'static str,
+}
+
+#[derive(Debug)]
+pub(crate) struct BudgetWords {
+    pub(crate) caption: &'static str,
+    pub(crate) columns: [&'static str; 4],
+    pub(crate) calculation: &'static str,
+    pub(crate) flux: &'static str,
+    /// `{name}`.
+    pub(crate) flux_of: &'static str,
+    pub(crate) maintenance: &'static str,
+    /// `{name}`.
+    pub(crate) reflectance: &'static str,
+    pub(crate) other_reflectances: &'static str,
+    /// `{mean}`.
+    pub(crate) together: &'static str,
 }
 
 #[derive(Debug)]
