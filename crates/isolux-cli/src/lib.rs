@@ -33,6 +33,7 @@ mod exposed;
 mod failure;
 mod flags;
 mod glare;
+mod glare_threshold;
 mod grid;
 mod grid_values;
 mod groups;
