@@ -143,11 +143,12 @@ fn crosswise_is_c0(file: &PhotometricFile) -> bool {
 }
 
 fn rows(table: &UgrTable) -> Vec<Row> {
-    let ratings = table.crosswise.iter().zip(&table.endwise);
-    let row = |(room, (crosswise, endwise)): (&UgrRoom, (&[Option<f64>; 5], &[Option<f64>; 5]))| {
-        Row { room: [room.across, room.along], crosswise: *crosswise, endwise: *endwise }
+    let row = |(k, room): (usize, &UgrRoom)| Row {
+        room: [room.across, room.along],
+        crosswise: table.crosswise[k],
+        endwise: table.endwise[k],
     };
-    UGR_ROOMS.iter().zip(ratings).map(row).collect()
+    UGR_ROOMS.iter().enumerate().map(row).collect()
 }
 
 fn refusal(why: NoUgrTable) -> String {
