@@ -16,11 +16,10 @@ pub use room::{UGR_REFLECTANCES, UGR_ROOMS, UgrReflectances, UgrRoom};
 use super::PhotometricWeb;
 use direct::Zones;
 use isolux_geometry::Direction;
+use room::HEIGHT_M;
 use sources::Seen;
 use std::f64::consts::PI;
 
-/// How high the luminaires are above the eye, m.
-const HEIGHT_M: f64 = 2.0;
 /// Views from opposite sides that differ by more are no table: one is the least difference that is noticed (CIE 117:1995).
 const MOST_ASYMMETRY: f64 = 1.0;
 

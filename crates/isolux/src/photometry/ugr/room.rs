@@ -2,6 +2,9 @@
 
 use std::f64::consts::PI;
 
+/// How high the luminaires are above the eye, m.
+pub(super) const HEIGHT_M: f64 = 2.0;
+
 /// A room in heights of the luminaires above the eye.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UgrRoom {

@@ -1,8 +1,7 @@
 //! The luminaires that an observer sees.
 
-use super::HEIGHT_M;
 use super::position::tabulated_position_index;
-use super::room::UgrRoom;
+use super::room::{HEIGHT_M, UgrRoom};
 use crate::photometry::PhotometricWeb;
 use isolux_geometry::{Direction, Vector};
 
