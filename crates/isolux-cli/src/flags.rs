@@ -17,6 +17,7 @@ pub(crate) use solve::{BakeFlags, MethodName, ProgressStyle, Quality, RadiosityF
 use solve::{FURTHER_HELP, SCENE_HELP};
 
 use crate::dimming::{DimmedMap, dimmed_group};
+use crate::glare_threshold::{Threshold, glare_threshold};
 use crate::quantity;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -362,13 +363,27 @@ pub(crate) enum QuantityName {
     Modelling,
 }
 
+/// How glare is rated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GlareMetric {
+    /// The unified glare rating of luminaires (CIE 117)
+    Ugr,
+    /// The daylight glare probability
+    Dgp,
+}
+
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   isolux glare map.glb
   isolux glare map.glb --eye 1,2,1.2 --target 5,2,1.2 --json
+  isolux glare map.glb --grid desks --limit 19
+  isolux glare map.glb --all-grids --direction 0,1,0 --csv glare.csv
+  isolux glare noon.glb --metric dgp --eye 2,3,1.2 --target 2,0,1.2
 
 The rating is that of CIE 117:1995, with the position index of Guth and the indirect light at the eye. Luminaires shine from their luminous area. \
-Without --eye the cameras of the scene look. It is made for artificial light: for windows it says little.")]
+Without --eye the cameras of the scene look. It is made for artificial light: for windows it says little, \
+and --metric dgp gives the daylight glare probability.")]
+#[command(group(clap::ArgGroup::new("grids").args(["grid", "all_grids"]).multiple(true)))]
 pub(crate) struct GlareFlags {
     /// The map (.glb)
     #[arg(value_name = "MAP.glb")]
@@ -382,6 +397,31 @@ pub(crate) struct GlareFlags {
     /// What it looks at
     #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "eye")]
     pub target: Option<[f64; 3]>,
+    /// Which rating
+    #[arg(long, value_enum, default_value_t = GlareMetric::Ugr)]
+    pub metric: GlareMetric,
+    /// What glares in daylight (--metric dgp): a luminance in cd/m2, or as 5x a multiple of the mean of the view
+    /// [default: 2000]
+    #[arg(long, value_name = "CD/M2|FACTORx", value_parser = glare_threshold, allow_hyphen_values = true)]
+    pub threshold: Option<Threshold>,
+    /// Observers at all points of a calculation grid; several: --grid again
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["camera", "eye"])]
+    pub grid: Vec<String>,
+    /// Observers at all points of all grids
+    #[arg(long, conflicts_with_all = ["camera", "eye", "grid"])]
+    pub all_grids: bool,
+    /// A way to look, level; several: --direction again, of which the worst counts [default: along the sides of the grid, to and fro]
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "grids")]
+    pub direction: Vec<[f64; 3]>,
+    /// Height of the eyes of a grid above its floor, m; 1.6 of people who stand
+    #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true, requires = "grids", default_value = "1.2")]
+    pub eye_height: f64,
+    /// The rating that points are to keep within
+    #[arg(long, value_name = "UGR", value_parser = quantity::rating, allow_hyphen_values = true, requires = "grids", default_value = "19")]
+    pub limit: f64,
+    /// Write all views of the grids to this file (.csv)
+    #[arg(long, value_name = "FILE.csv", requires = "grids")]
+    pub csv: Option<PathBuf>,
 }
 
 impl GridChoice {
@@ -535,6 +575,7 @@ pub(crate) struct CheckFlags {
   isolux lint *.ies *.ldt --json
   isolux lint lamp.ies --polar lamp.svg --draw
   isolux lint lamp.ldt --convert lamp.ies
+  isolux lint lamp.ldt --ugr
 
 Exit code 2 if a file cannot be used; the others are reported all the same.")]
 pub(crate) struct LintFlags {
@@ -550,6 +591,12 @@ pub(crate) struct LintFlags {
     /// Convert the file to the other format and say what is lost
     #[arg(long, value_name = "OUT.ies|OUT.ldt")]
     pub convert: Option<PathBuf>,
+    /// The table of unified glare ratings in standard rooms, by the tabular method of CIE 190:2010
+    #[arg(long)]
+    pub ugr: bool,
+    /// Distance of the luminaires of the table over their height above the eye: one over a whole number
+    #[arg(long, value_name = "S/H", value_parser = quantity::spacing_to_height, allow_hyphen_values = true, requires = "ugr", default_value = "0.25")]
+    pub spacing_to_height: f64,
 }
 
 #[derive(Debug, Args)]

@@ -34,6 +34,7 @@ mod exposed;
 mod failure;
 mod flags;
 mod glare;
+mod glare_threshold;
 mod grid;
 mod grid_values;
 mod groups;

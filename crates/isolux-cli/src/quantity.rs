@@ -42,6 +42,31 @@ pub(crate) fn reflectance(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A unified glare rating that is a limit.
+pub(crate) fn rating(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(rating) if (5.0..=40.0).contains(&rating) => Ok(rating),
+        Ok(_) => Err("must be from 5 to 40; 19 is usual in offices".into()),
+        Err(_) => Err("not a number; write 19".into()),
+    }
+}
+
+/// Distance over height of luminaires that fit rooms of whole heights: one over a whole number up to 20.
+pub(crate) fn spacing_to_height(text: &str) -> Result<f64, String> {
+    let fits = |ratio: f64| {
+        let in_one = (1.0 / ratio).round();
+        // As far as decimal digits tell a third.
+        ((1.0..=20.0).contains(&in_one) && (in_one * ratio - 1.0).abs() < 0.01)
+            .then_some(1.0 / in_one)
+    };
+    match text.trim().parse::<f64>() {
+        Ok(ratio) if ratio > 0.0 => fits(ratio).ok_or_else(|| {
+            "luminaires so far apart do not fill rooms evenly; write 0.25, 0.5, 1 or one over another whole number up to 20".into()
+        }),
+        _ => Err("not a ratio; write 0.25".into()),
+    }
+}
+
 /// Hours of a day, from and to.
 pub(crate) fn hours_of_day(text: &str) -> Result<(u32, u32), String> {
     let parts = text.split_once("..").map(|(a, b)| (a.trim().parse(), b.trim().parse()));

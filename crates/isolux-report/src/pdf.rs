@@ -29,7 +29,8 @@ pub(crate) fn written(document: &Document) -> Result<Vec<u8>, PdfError> {
     let files = files.into_iter().map(|file| (file.name, Bytes::new(file.bytes)));
     let desk = Desk::of(source, files.collect());
     let set = typst::compile::<PagedDocument>(&desk).output.map_err(|all| first(&all))?;
-    let standards = PdfStandards::new(&[PdfStandard::Ua_1]).map_err(|e| PdfError(e.to_string()))?;
+    let standards =
+        PdfStandards::new(&[PdfStandard::Ua_1]).map_err(|e| PdfError(e.message().to_string()))?;
     let options = PdfOptions { standards, ..PdfOptions::default() };
     typst_pdf::pdf(&set, &options).map_err(|all| first(&all))
 }

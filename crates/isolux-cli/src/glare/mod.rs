@@ -1,185 +1,96 @@
 //! `isolux glare`: the unified glare rating of observers.
 
+mod dgp;
+mod floor_plan;
+mod observer;
 mod position;
 mod sources;
 
-use crate::console::{print, print_json, table};
+use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
-use crate::flags::GlareFlags;
+use crate::flags::{GlareFlags, GlareMetric};
 use crate::interval::Interval;
-use crate::notes::{Note, note};
-use crate::quantity::significant;
+use crate::map_file;
+use crate::output::OutputPath;
 use crate::shown::name;
-use crate::{map_file, viewpoint};
-use isolux::engine::{MapReader, ProbePoint};
-use isolux::geometry::{Point, Vector};
-use isolux::map::{IlluminationMap, NORMAL_95};
+use isolux::engine::MapReader;
+use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
-use isolux::units::to_error;
-use serde::Serialize;
-use sources::{Shining, shining};
-use std::f64::consts::{LN_10, PI};
-
-/// Below this the unified glare rating is that of no glare (CIE 117:1995).
-const NO_GLARE: f64 = 10.0;
-
-/// What an observer sees.
-#[derive(Debug, Serialize)]
-struct Observed {
-    observer: String,
-    position: [f64; 3],
-    direction: [f64; 3],
-    /// `None` without a source in view, or where nothing is known of the background.
-    ugr: Option<Interval>,
-    background_cd_m2: f64,
-    indirect_at_eye_lx: f64,
-    sources_in_view: usize,
-}
+use observer::Observed;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &GlareFlags, json: bool) -> Result<Outcome, Failure> {
+    let csv = flags.csv.as_deref().map(|path| OutputPath::check(path, "csv")).transpose()?;
     let (scene, map) = map_file::read(&flags.map)?;
-    let eyes = eyes(flags, &scene)?;
+    let on_grids = flags.all_grids || !flags.grid.is_empty();
+    if flags.threshold.is_some() && flags.metric != GlareMetric::Dgp {
+        return Err(Failure::bad_input(
+            "--threshold says what glares in daylight; leave it out or add --metric dgp",
+        ));
+    }
+    if on_grids && flags.metric == GlareMetric::Dgp {
+        return Err(Failure::bad_input(
+            "--metric dgp takes one view at a time, not grids; give --camera, or --eye and --target",
+        ));
+    }
+    if on_grids {
+        let request = floor_plan::Request::of(flags, &scene)?;
+        map_file::warn_of_unknown_error(&flags.map, &map);
+        let rated = floor_plan::rated(&request, &scene, &MapReader::new(&scene, &map));
+        rated.iter().for_each(floor_plan::Rated::warn);
+        if let Some(csv) = csv {
+            csv.write(floor_plan::rows(&rated).as_bytes())?;
+        }
+        if json {
+            print_json(&serde_json::json!({ "grids": rated }))?;
+        } else {
+            print(&floor_plan::text(&rated))?;
+        }
+        return Ok(Outcome::Done);
+    }
+    let eyes = observer::eyes(flags, &scene)?;
     map_file::warn_of_unknown_error(&flags.map, &map);
-    let observed: Vec<Observed> =
-        eyes.iter().map(|eye| observed(&scene, &map, eye)).collect::<Result<_, _>>()?;
+    if flags.metric == GlareMetric::Dgp {
+        let observed = dgp::observed(flags, (&scene, &map), &eyes)?;
+        if json {
+            print_json(&serde_json::json!({ "observers": observed }))?;
+        } else {
+            print(&dgp::text(&observed))?;
+        }
+        return Ok(Outcome::Done);
+    }
+    let observed = all_observed(&scene, &map, &eyes)?;
+    observed.iter().for_each(observer::warn);
     if json {
         print_json(&serde_json::json!({ "observers": observed }))?;
     } else {
-        print(&text(&observed))?;
+        print(&observer::text(&observed))?;
     }
     Ok(Outcome::Done)
-}
-
-/// Who looks: the cameras asked for, an eye, or all cameras.
-fn eyes(flags: &GlareFlags, scene: &Scene) -> Result<Vec<Camera>, Failure> {
-    if let Some(eye) = flags.eye {
-        return looking(scene, eye, flags.target).map(|eye| vec![eye]);
-    }
-    if flags.camera.is_empty() && scene.cameras().is_empty() {
-        return Err(Failure::bad_input(format!(
-            "{}: has no cameras; say who looks by --eye and --target",
-            flags.map.display()
-        )));
-    }
-    if flags.camera.is_empty() {
-        return Ok(scene.cameras().to_vec());
-    }
-    let of = |name: &String| viewpoint::camera(scene, Some(name)).map_err(Failure::bad_input);
-    flags.camera.iter().map(of).collect()
-}
-
-/// An eye that looks at a place, level unless that is given.
-fn looking(scene: &Scene, eye: [f64; 3], target: Option<[f64; 3]>) -> Result<Camera, Failure> {
-    let up = scene.up().direction();
-    let position = Point::from(eye);
-    let way = target.map(|target| Point::from(target) - position);
-    let direction = way.and_then(Vector::direction);
-    let direction = direction.ok_or_else(|| {
-        Failure::bad_input("--eye needs a --target that is somewhere else; give what is looked at")
-    })?;
-    if direction.dot(up).abs() > 1.0 - 1e-9 {
-        return Err(Failure::bad_input(
-            "--target lies straight above or below the eye; look ahead",
-        ));
-    }
-    Ok(Camera { name: "eye".into(), position, direction, up, vertical_fov_rad: 1.0 })
 }
 
 /// The rating of an observer, and the luminance of the background, cd/m2; `None` of one who is inside of something.
 pub(crate) fn rated(
     scene: &Scene,
-    map: &IlluminationMap,
+    reader: &MapReader<'_>,
     eye: &Camera,
 ) -> Option<(Option<Interval>, f64)> {
-    observed(scene, map, eye).ok().map(|of| (of.ugr, of.background_cd_m2))
+    observer::observed(scene, reader, eye).map(|of| (of.ugr, of.background_cd_m2))
 }
 
-fn observed(scene: &Scene, map: &IlluminationMap, eye: &Camera) -> Result<Observed, Failure> {
+fn all_observed(
+    scene: &Scene,
+    map: &IlluminationMap,
+    eyes: &[Camera],
+) -> Result<Vec<Observed>, Failure> {
     let reader = MapReader::new(scene, map);
-    let normal = eye.direction.to_normal();
-    let read = reader.measure(ProbePoint { position: eye.position, normal });
-    let Some(read) = read else {
-        return Err(Failure::bad_input(format!(
-            "observer `{}` is inside of something; move it into the room",
-            name(&eye.name)
-        )));
+    let of = |eye: &Camera| {
+        observer::observed(scene, &reader, eye).ok_or_else(|| {
+            Failure::bad_input(format!(
+                "observer `{}` is inside of something; move it into the room",
+                name(&eye.name)
+            ))
+        })
     };
-    let shining = shining(scene, eye);
-    if shining.points > 0 {
-        let what = format!(
-            "observer `{}`: {} luminaires have no luminous area and so no luminance; they are left out",
-            name(&eye.name),
-            shining.points
-        );
-        note(Note::Warning, what);
-    }
-    if shining.seen == 0 {
-        let eye = name(&eye.name);
-        let what = "nothing that shines is in view";
-        let rest = "skies and the sun are not counted";
-        note(Note::Warning, format!("observer `{eye}`: {what}; {rest}"));
-    }
-    let indirect_lx = read.indirect_lx.luminance();
-    Ok(Observed {
-        observer: eye.name.clone(),
-        position: eye.position.into(),
-        direction: eye.direction.to_vector().into(),
-        ugr: rating(&shining, indirect_lx, read.indirect_standard_error_lx),
-        background_cd_m2: indirect_lx / PI,
-        indirect_at_eye_lx: indirect_lx,
-        sources_in_view: shining.seen,
-    })
-}
-
-/// CIE 117:1995: `8 lg (0.25 / Lb sum L^2 omega / p^2)`, Lb the indirect illuminance at the eye over pi.
-fn rating(shining: &Shining, indirect_lx: f64, error_lx: f64) -> Option<Interval> {
-    if shining.sum <= 0.0 || indirect_lx <= 0.0 || !error_lx.is_finite() {
-        return None;
-    }
-    let value = 8.0 * libm::log10(0.25 * PI / indirect_lx * shining.sum);
-    let relative = libm::hypot(error_lx / indirect_lx, shining.error / shining.sum);
-    let half = NORMAL_95 * 8.0 / LN_10 * relative;
-    Some(Interval { value, low: value - half, high: value + half })
-}
-
-fn text(observed: &[Observed]) -> String {
-    let row = |of: &Observed| {
-        let ugr = match of.ugr {
-            None => "-".to_owned(),
-            Some(ugr) if ugr.high < NO_GLARE => "below 10".to_owned(),
-            Some(Interval { value, low, high }) => {
-                let written = |ugr: f64| to_error(ugr, (0.5 * (high - low)).max(0.05));
-                format!("{} ({} to {})", written(value), written(low), written(high))
-            }
-        };
-        vec![
-            name(&of.observer),
-            ugr,
-            significant(of.background_cd_m2, 3),
-            of.sources_in_view.to_string(),
-        ]
-    };
-    let header = ["observer", "UGR", "background, cd/m2", "sources in view"];
-    table(&header, &observed.iter().map(row).collect::<Vec<_>>())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// 0.25 / 20 cd/m2 of 1e4 cd/m2 over 0.01 sr at p = 2: 8 lg 3125 = 27.96.
-    #[test]
-    fn a_rating_by_hand() {
-        let sum = 1e8 * 0.01 / 4.0;
-        let shining = Shining { sum, error: 0.0, seen: 1, points: 0 };
-        let ugr = rating(&shining, 20.0 * PI, 0.0).unwrap();
-        assert!((ugr.value - 8.0 * libm::log10(3125.0)).abs() < 1e-12, "{ugr:?}");
-        assert_eq!(ugr.low, ugr.high);
-        let noisy = rating(&shining, 20.0 * PI, 0.02 * 20.0 * PI).unwrap();
-        // A hundredth of the background is 0.035.
-        assert!((noisy.high - noisy.value - 1.96 * 2.0 * 0.034_74).abs() < 1e-3, "{noisy:?}");
-        assert_eq!(rating(&Shining::default(), 100.0, 1.0), None);
-        assert_eq!(rating(&shining, 0.0, 0.0), None);
-    }
+    eyes.iter().map(of).collect()
 }

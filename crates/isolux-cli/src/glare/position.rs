@@ -25,6 +25,31 @@ pub(super) fn position_index(eye: &Camera, towards: Direction) -> Option<f64> {
     Some(libm::exp(linear * 1e-3 * sigma + square * 1e-5 * sigma * sigma))
 }
 
+/// Below the line of sight the index grows so much by the tangent of the angle from it, for places within and beyond this tangent; places
+/// farther than the last count as there (Iwata and others 1997).
+const BELOW: [f64; 2] = [0.8, 1.2];
+const BELOW_CHANGES: f64 = 0.6;
+const BELOW_ENDS: f64 = 3.0;
+/// No place disturbs less.
+const LARGEST_INDEX: f64 = 16.0;
+
+/// The position index of daylight glare, as `evalglare` has it: that of Guth above the line of sight, that of Iwata below. `None` behind
+/// the eye.
+pub(super) fn daylight_position_index(eye: &Camera, towards: Direction) -> Option<f64> {
+    let above = position_index(eye, towards)?;
+    let sight = eye.direction.to_vector();
+    let up = eye.up.to_vector();
+    let upright = up - sight * up.dot(sight);
+    let index = if towards.to_vector().dot(upright) >= 0.0 {
+        above
+    } else {
+        let ahead = towards.dot(eye.direction);
+        let tangent = ((1.0 - ahead * ahead).max(0.0).sqrt() / ahead).min(BELOW_ENDS);
+        1.0 + BELOW[usize::from(tangent > BELOW_CHANGES)] * tangent
+    };
+    Some(index.min(LARGEST_INDEX))
+}
+
 /// Solid angle of a triangle, sr (van Oosterom and Strackee 1983).
 pub(super) fn triangle_sr(from: Point, corners: [Point; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| corner - from);
@@ -65,6 +90,23 @@ mod tests {
         assert!(at(0.5, 0.0) < at(0.0, 0.5), "what is above disturbs less");
         assert!(at(0.3, 0.3) > at(0.1, 0.1));
         assert_eq!(position_index(&eye(), -Direction::Y), None);
+    }
+
+    #[test]
+    fn below_the_line_of_sight_it_is_that_of_iwata() {
+        let at = |across: f64, up: f64| {
+            let towards = Vector::new(across, 1.0, up).direction().unwrap();
+            daylight_position_index(&eye(), towards).unwrap()
+        };
+        for (across, up, index) in
+            [(0.0, -0.5, 1.4), (0.3, -0.4, 1.4), (0.0, -1.0, 2.2), (4.0, -4.0, 4.6)]
+        {
+            assert!((at(across, up) - index).abs() < 1e-9, "{across} {up}: {}", at(across, up));
+        }
+        let above = Vector::new(0.2, 1.0, 0.3).direction().unwrap();
+        assert_eq!(daylight_position_index(&eye(), above), position_index(&eye(), above));
+        assert_eq!(at(0.0, 8.0), 16.0);
+        assert_eq!(daylight_position_index(&eye(), -Direction::Y), None);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use crate::flags::ReportFlags;
 use crate::look::Look;
 use crate::shown::name;
 use crate::{glare, traced, viewpoint};
+use isolux::engine::MapReader;
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_formats::png::encode_profiled;
@@ -56,7 +57,7 @@ fn image(Picture { width, height, rgb, icc }: &Picture) -> Result<Image, Failure
 
 /// `None` of an observer who is inside of something.
 fn rated((scene, map): (&Scene, &IlluminationMap), camera: &Camera) -> Option<Glare> {
-    let (rating, background_cd_m2) = glare::rated(scene, map, camera)?;
+    let (rating, background_cd_m2) = glare::rated(scene, &MapReader::new(scene, map), camera)?;
     Some(Glare {
         observer: Observer {
             name: name(&camera.name),

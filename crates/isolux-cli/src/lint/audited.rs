@@ -1,5 +1,6 @@
 //! What is printed of one file.
 
+use super::ratings::Ratings;
 use crate::lamp::Contents;
 use crate::quantity::significant;
 use crate::shown::sentence;
@@ -19,6 +20,8 @@ pub(super) struct Audited {
     /// Flux above the horizontal over all of it; `null` for floodlights, of types A and B.
     upward_share: Option<f64>,
     findings: Vec<Found>,
+    /// `null` unless asked for, and of a file that cannot be used.
+    ugr: Option<Ratings>,
 }
 
 /// One finding.
@@ -32,7 +35,8 @@ struct Found {
 }
 
 impl Audited {
-    pub(super) fn of(audit: &Audit) -> Self {
+    /// With the table of ratings for a spacing to height, where that is asked for.
+    pub(super) fn of(audit: &Audit, spacing: Option<f64>) -> Self {
         let usable = audit.usable.as_ref();
         let lamps = usable.and_then(|(file, _)| file.lamp_flux_lm()).filter(|lm| *lm > 0.0);
         let flux = usable.map(|(_, web)| web.luminous_flux_lm());
@@ -44,6 +48,7 @@ impl Audited {
             light_output_ratio: flux.zip(lamps).map(|(flux, lamps)| flux / lamps),
             upward_share: usable.and_then(|(_, web)| upward(web)),
             findings: audit.findings.iter().map(Found::of).collect(),
+            ugr: usable.zip(spacing).map(|((file, web), spacing)| Ratings::of(file, web, spacing)),
         }
     }
 
@@ -64,6 +69,9 @@ impl Audited {
         }
         if self.findings.is_empty() {
             text += "nothing found\n";
+        }
+        if let Some(ratings) = &self.ugr {
+            text += &format!("\n{}", ratings.text());
         }
         text + "\n"
     }

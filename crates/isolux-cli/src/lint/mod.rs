@@ -2,6 +2,7 @@
 
 mod audited;
 mod converted;
+mod ratings;
 
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
@@ -21,7 +22,7 @@ pub(crate) fn run(flags: &LintFlags, json: bool) -> Result<Outcome, Failure> {
     let audits: Vec<Audit> = flags.files.iter().map(|file| lint(file)).collect();
     let mut report = Report { files: Vec::new(), conversion: None };
     for audit in &audits {
-        report.files.push(Audited::of(audit));
+        report.files.push(Audited::of(audit, flags.ugr.then_some(flags.spacing_to_height)));
     }
     let mut text = report.text();
     if let [audit] = audits.as_slice() {

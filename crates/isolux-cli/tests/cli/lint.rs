@@ -115,3 +115,51 @@ fn what_cannot_be_written_is_refused_before_anything_is() {
     assert_eq!(ran.code, 2, "{ran:?}");
     assert_eq!(home.names(), ["bad.ies", "lamp.ies"]);
 }
+
+/// A cosine of 637 cd, 0.6 x 0.6 m, is a luminance of 1768 cd/m2 everywhere.
+#[test]
+fn the_table_of_ratings() {
+    let home = Home::new();
+    home.file("panel.ies", IES.replace("0.1 0.2 0", "0.6 0.6 0"));
+    home.file("point.ies", IES.replace("0.1 0.2 0", "0 0 0"));
+    home.file("small.ies", IES.replace("0.1 0.2 0", "0.05 0.05 0"));
+    let ran = home.run(&["lint", "panel.ies", "point.ies", "small.ies", "--ugr", "--json"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let json = ran.json();
+    let [panel, point, small] = [0, 1, 2].map(|k| &json["files"][k]["ugr"]);
+    assert!(
+        panel["refused"].is_null() && panel["remarks"].as_array().unwrap().is_empty(),
+        "{panel}"
+    );
+    assert_eq!(panel["spacing_to_height"], 0.25);
+    let rooms = panel["rooms"].as_array().unwrap();
+    assert_eq!(rooms.len(), 19);
+    assert_eq!(rooms[10]["room"], serde_json::json!([4, 8]));
+    let ugr =
+        |of: &serde_json::Value, room: usize| of["rooms"][room]["crosswise"][0].as_f64().unwrap();
+    // A luminaire with symmetry about its axis: whichever way it hangs.
+    assert_eq!(rooms[10]["crosswise"], rooms[10]["endwise"]);
+    // The background is the same, luminance 144 times as high from an area that much smaller.
+    let by_area = 8.0 * 144.0_f64.log10();
+    assert!((ugr(small, 10) - ugr(panel, 10) - by_area).abs() < 1e-9, "{small}");
+    assert!(small["remarks"][0].as_str().unwrap().contains("0.0025 m2"), "{small}");
+    assert!(point["refused"].as_str().unwrap().contains("no luminous area"), "{point}");
+    assert_eq!(point["rooms"], serde_json::json!([]));
+    let ran = home.run(&["lint", "small.ies", "point.ies", "--ugr"]);
+    assert!(ran.out.contains("S/H 0.25") && ran.out.contains("12H 8H"), "{}", ran.out);
+    assert!(ran.out.contains("no UGR table: it has no luminous area"), "{}", ran.out);
+    assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
+    assert!(!home.run(&["lint", "small.ies"]).out.contains("UGR"));
+    for (more, part) in [
+        (["--ugr", "--spacing-to-height", "0.4"].as_slice(), "do not fill rooms"),
+        (&["--ugr", "--spacing-to-height", "-1"], "not a ratio"),
+        (&["--spacing-to-height", "0.5"], "--ugr"),
+    ] {
+        let ran = home.run(&[&["lint", "panel.ies"], more].concat());
+        assert!(ran.code == 2 && ran.err.contains(part), "{part}: {ran:?}");
+    }
+    let wide =
+        home.run(&["lint", "panel.ies", "--ugr", "--spacing-to-height", "1", "--json"]).json();
+    assert_eq!(wide["files"][0]["ugr"]["spacing_to_height"], 1.0);
+    assert_ne!(wide["files"][0]["ugr"]["rooms"][10], rooms[10]);
+}

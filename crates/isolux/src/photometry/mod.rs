@@ -13,6 +13,7 @@ mod strip;
 mod symmetry;
 #[cfg(test)]
 mod tests;
+mod ugr;
 mod web;
 
 pub use angles::AngleSystem;
@@ -20,4 +21,7 @@ pub use check::WebError;
 pub use distribution::IntensityDistribution;
 pub use sky::{AllWeather, CIE_TYPES, GeneralSky, Sky, SkyPatches, SkyPicture, SkyWeather};
 pub use symmetry::Symmetry;
+pub use ugr::{
+    NoUgrTable, UGR_REFLECTANCES, UGR_ROOMS, UgrLayout, UgrReflectances, UgrRoom, UgrTable,
+};
 pub use web::PhotometricWeb;
