@@ -8,7 +8,7 @@ use crate::failure::{Failure, Outcome};
 use crate::flags::{BudgetFlags, InputFlags};
 use crate::grid::choice;
 use crate::interval::Interval;
-use crate::quantity::show_share;
+use crate::quantity::{show_share, significant};
 use crate::shown::name;
 use crate::{map_file, source};
 use isolux::scene::{CalculationGrid, Scene};
@@ -159,7 +159,7 @@ impl Budget {
             vec![
                 line.source.text(),
                 line.input.map_or("-".to_owned(), show_share),
-                to_error(line.half_lx, 0.1 * line.half_lx),
+                significant(line.half_lx, 2),
                 format!("{:.0} %", 100.0 * line.share),
             ]
         };

@@ -1,6 +1,6 @@
 //! Arguments of `isolux budget`.
 
-use super::GridChoice;
+use super::grid_choice::GridChoice;
 use super::solve::FURTHER_HELP;
 use crate::quantity;
 use clap::Args;

@@ -1,7 +1,8 @@
 //! Arguments of `isolux report`.
 
+use super::budget::InputFlags;
+use super::grid_choice::GridChoice;
 use super::solve::FURTHER_HELP;
-use super::{GridChoice, InputFlags};
 use crate::quantity;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;

@@ -14,12 +14,15 @@ use std::path::Path;
 /// is undecided at the last is too near its bound.
 const ACCURACIES: [f64; 5] = [0.04, 0.02, 0.01, 0.005, 0.0025];
 
+/// How grids are read on a map.
+type Read<'a> = &'a dyn Fn(&IlluminationMap) -> Vec<GridResult>;
+
 /// The map of a scene: as accurate as asked or, with requirements and no accuracy, as accurate as they need to be decided. `read`
 /// reads the grids on a map.
 pub(crate) fn decided(
     (scene, source): (&Scene, &Path),
     accuracy: Option<f64>,
-    (grids, read): (&[CalculationGrid], &dyn Fn(&IlluminationMap) -> Vec<GridResult>),
+    (grids, read): (&[CalculationGrid], Read<'_>),
 ) -> Result<(IlluminationMap, Outcome), Failure> {
     let default = SolveRequest::default();
     let solved = |accuracy: Option<f64>| {

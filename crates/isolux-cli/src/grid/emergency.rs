@@ -105,7 +105,6 @@ fn on_grid(
     let read = |points: &[ProbePoint]| figures((lit, flags), &grid, points);
     let of =
         |condition: &str, figure: Figure, verdict: fn(Interval, f64) -> Verdict, bound: f64| {
-            let figure = Interval::from(figure);
             Judged {
                 grid: grid.name.clone(),
                 condition: condition.to_owned(),

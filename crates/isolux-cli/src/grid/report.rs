@@ -28,7 +28,7 @@ pub(super) struct Found<'a> {
 /// The mean of a grid that faces up, if illuminance is read on it.
 fn level_mean_lx(result: &GridResult, asked: &Asked) -> Option<Interval> {
     let faces_up = asked.is_planar() && asked.is_up(result.read.normal);
-    result.read.figures.filter(|_| faces_up).map(|figures| figures.mean_lx.into())
+    result.read.figures.filter(|_| faces_up).map(|figures| figures.mean_lx)
 }
 
 /// Names of grids that face up, with their means.
@@ -100,9 +100,7 @@ struct Report {
 
 impl Report {
     fn of(result: &GridResult, light: Maintained, asked: &Asked, installed: &Installed) -> Self {
-        let interval = |read: fn(&GridFigures) -> Figure| {
-            result.read.figures.as_ref().map(read).map(Interval::from)
-        };
+        let interval = |read: fn(&GridFigures) -> Figure| result.read.figures.as_ref().map(read);
         let (counts, sides_m) = (result.read.grid.counts(), result.read.grid.sides_m());
         Self {
             name: result.read.grid.name.clone(),

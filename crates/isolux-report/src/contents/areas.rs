@@ -1,6 +1,6 @@
 //! Calculation grids: plans, facts, values.
 
-use super::LEAST_LX;
+use super::least::LEAST_LX;
 use crate::document::{Block, Picture, Section, Table, numbers, row, words};
 use crate::report::{Area, Budget, BudgetLine, Maintenance, Report, UncertainInput};
 use crate::words::{Words, fill};
@@ -90,7 +90,7 @@ fn budget(of: &Budget, language: &Words) -> [Block; 2] {
         row([
             source(line),
             line.input.map_or(language.unknown.to_owned(), |share| language.share(share)),
-            language.to_error(line.half_lx, 0.1 * line.half_lx),
+            language.number(line.half_lx, 2),
             format!("{} %", language.fixed(100.0 * line.share, 0)),
         ])
     };

@@ -1,6 +1,6 @@
 //! The first page.
 
-use super::{LEAST_LX, LEAST_RATIO};
+use super::least::{LEAST_LX, LEAST_RATIO};
 use crate::document::{Cover, Key, Picture};
 use crate::report::{Area, DaylightArea, Maintenance, Report};
 use crate::words::{Words, fill};

@@ -6,6 +6,7 @@ mod assumptions;
 mod cover;
 mod daylight;
 mod glare;
+mod least;
 mod luminaires;
 mod results;
 mod views;
@@ -13,10 +14,6 @@ mod views;
 use crate::document::{Block, Document, Section};
 use crate::report::Report;
 use crate::words::{Language, Words};
-
-/// Nobody reads illuminances and ratios finer than this.
-const LEAST_LX: f64 = 0.5;
-const LEAST_RATIO: f64 = 0.02;
 
 /// The report in a language.
 pub(crate) fn document(report: &Report, language: Language) -> Document {

@@ -1,6 +1,6 @@
 //! What is required and what was found.
 
-use super::{LEAST_LX, LEAST_RATIO};
+use super::least::{LEAST_LX, LEAST_RATIO};
 use crate::document::{Block, Cell, Section, Table, numbers, row, words};
 use crate::report::{Area, Condition, Quantity, Report, Requirement};
 use crate::words::{Words, fill};

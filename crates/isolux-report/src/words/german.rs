@@ -1,6 +1,6 @@
 //! The report in German.
 
-use super::{
+use super::phrases::{
     AccuracyWords, AreaWords, AssumptionWords, BudgetWords, CoverWords, DaylightWords, GlareWords,
     LuminaireWords, PlanWords, ResultWords, ViewWords, Words,
 };

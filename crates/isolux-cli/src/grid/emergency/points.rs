@@ -86,6 +86,7 @@ mod tests {
             spacing_m: None,
             border_m: 0.0,
             maintenance_factor: 1.0,
+            requirements: Vec::new(),
         }
     }
 
