@@ -2,8 +2,11 @@
 
 use super::*;
 use crate::engine::{ExactSettings, PathTracer, ProbePoint, Sensitivity};
+use isolux_geometry::Direction;
 
-const PLACE: ProbePoint = ProbePoint { position: Point::new(1.0, 1.0, 0.8), normal: Normal::Z };
+fn place() -> ProbePoint {
+    ProbePoint { position: Point::new(1.0, 1.0, 0.8), normal: Direction::Z.to_normal() }
+}
 
 /// A closed room whose floor has a reflectance of its own.
 fn room(walls: f64, floor: f64) -> Scene {
@@ -20,7 +23,7 @@ fn settings() -> ExactSettings {
 fn sensitivity(of: &Scene, count: usize) -> Sensitivity {
     let class = |triangle: u32| of.material_index(triangle).min(count as u32 - 1);
     let classes: Vec<u32> = (0..of.triangle_count()).map(class).collect();
-    PathTracer::new(of).sensitivity(PLACE, (&classes, count), &settings())
+    PathTracer::new(of).sensitivity(place(), (&classes, count), &settings())
 }
 
 fn mean(of: &[f64]) -> f64 {
@@ -31,8 +34,9 @@ fn mean(of: &[f64]) -> f64 {
 fn derivatives_are_those_of_differences() {
     const STEP: f64 = 0.1;
     let found = sensitivity(&room(0.5, 0.3), 2);
-    let light =
-        |walls: f64, floor: f64| PathTracer::new(&room(walls, floor)).estimate(PLACE, &settings());
+    let light = |walls: f64, floor: f64| {
+        PathTracer::new(&room(walls, floor)).estimate(place(), &settings())
+    };
     let by_hand = |low: crate::map::Illuminance, high: crate::map::Illuminance| {
         let error_lx = libm::hypot(low.standard_error_lx, high.standard_error_lx);
         [high.illuminance_lx() - low.illuminance_lx(), error_lx].map(|lx| lx / (2.0 * STEP))
