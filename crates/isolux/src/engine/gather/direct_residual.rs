@@ -7,6 +7,12 @@
 //! distributes it to the vertices around. The light that elements reflect is then right in the mean over increments,
 //! and their spread tells its error. A vertex gets the mean of light weighted by its hat function; other elements add
 //! the vertex's own value. Light is so conserved and never negative.
+//!
+//! A reader of a map takes its samples once, and all its readings share their noise. They tell it. An element `e` brings its
+//! flux `X` to its vertices with the shares `a`, 1/m2, and a reading has the weight `w` of a vertex: it errs by the sum over elements of
+//! `(sum_v a w) X`, whose variance is that of `X` times `(sum_v a w)^2`. That is at most `(sum_v a) (sum_v a w^2)` (Cauchy and
+//! Schwarz), and equal to it where `w` is the same at all vertices of the element. So a value at each vertex is enough,
+//! with which the squares of the weights are summed.
 
 use super::bright_surfaces::BrightSurfaces;
 use super::gatherer::known_weights;
@@ -59,6 +65,14 @@ struct Leaf {
     varies_lx: f64,
 }
 
+/// Direct light at vertices as rays are to read it.
+pub(crate) struct Kept {
+    /// The light, lx.
+    pub(crate) values: Vec<Rgb>,
+    /// What the square of a weight of a vertex adds to the variance of a reading at most, lx2; unknown of one sample, and then zero.
+    pub(crate) variances_lx2: Vec<f64>,
+}
+
 /// The flux on an element, and the vertices and weights that it is distributed to.
 struct Lit {
     lm: Rgb,
@@ -105,8 +119,17 @@ impl DirectResidual {
         RESIDUAL_PLACES as u64 + samples * self.leaves.len() as u64
     }
 
+    /// The noise of a reading that sees all elements evenly, if none absorbs anything, lx.
+    pub(crate) fn noise_lx(&self, kept: &Kept) -> f64 {
+        let all_m2: f64 = self.hats_m2.iter().sum();
+        let of_vertices = self.hats_m2.iter().zip(&kept.variances_lx2);
+        let variance: f64 =
+            of_vertices.map(|(hat_m2, lx2)| (hat_m2 / all_m2) * (hat_m2 / all_m2) * lx2).sum();
+        variance.sqrt()
+    }
+
     /// Direct light at vertices as rays are to read it, lx, from `samples` samples of each element.
-    pub(crate) fn read(&self, over: &Over<'_>, (samples, key): (u64, Key)) -> Vec<Rgb> {
+    pub(crate) fn read(&self, over: &Over<'_>, (samples, key): (u64, Key)) -> Kept {
         let one = |(number, leaf): (usize, &Leaf)| {
             let sequence = Sequence::new(key.with(number as u64));
             (0..samples).map(|k| over.sample(leaf, &mut Dice::new(sequence, k as u32))).collect()
@@ -114,9 +137,15 @@ impl DirectResidual {
         let all: Vec<Vec<Lit>> = self.leaves.par_iter().enumerate().map(one).collect();
         let mut sums_lm = vec![Rgb::BLACK; over.direct.len()];
         let mut sampled_m2 = vec![0.0; over.direct.len()];
+        let mut variances_lx2 = vec![0.0; over.direct.len()];
         for (leaf, all) in self.leaves.iter().zip(all) {
-            for (vertex, weight) in over.thirds(leaf.vertices).into_iter().flatten() {
+            let variance_lm2 = variance_of_mean(&all);
+            let thirds = over.thirds(leaf.vertices);
+            let share = |(vertex, weight): (u32, f64)| weight / self.hats_m2[vertex as usize];
+            let shares: f64 = thirds.iter().flatten().map(|&corner| share(corner)).sum();
+            for (vertex, weight) in thirds.into_iter().flatten() {
                 sampled_m2[vertex as usize] += weight * leaf.area_m2;
+                variances_lx2[vertex as usize] += variance_lm2 * shares * share((vertex, weight));
             }
             for Lit { lm, corners } in all {
                 for (vertex, weight) in corners {
@@ -132,8 +161,19 @@ impl DirectResidual {
             // Rounding may make the share of other elements negative.
             own * (1.0 - sampled_m2[v] / hat_m2).max(0.0) + sums_lm[v] / hat_m2
         };
-        (0..over.direct.len()).map(read).collect()
+        Kept { values: (0..over.direct.len()).map(read).collect(), variances_lx2 }
     }
+}
+
+/// The variance of the mean flux of some samples, lm2; zero of one.
+fn variance_of_mean(all: &[Lit]) -> f64 {
+    let n = all.len() as f64;
+    if n < 2.0 {
+        return 0.0;
+    }
+    let mean = all.iter().map(|lit| lit.lm.luminance()).sum::<f64>() / n;
+    let squares = all.iter().map(|lit| lit.lm.luminance() - mean).map(|off| off * off);
+    squares.sum::<f64>() / (n * (n - 1.0))
 }
 
 impl Over<'_> {

@@ -17,7 +17,7 @@ pub(crate) use bright_surfaces::{BrightSurfaces, Seen};
 pub(crate) use control_variate::ControlVariate;
 #[cfg(test)]
 pub(crate) use control_variate::lacking;
-pub(crate) use direct_residual::{DirectResidual, Over};
+pub(crate) use direct_residual::{DirectResidual, Kept, Over};
 pub(crate) use gatherer::{
     DirectAtEnds, Gatherer, Gathering, known_at, known_on_side, known_weights,
 };

@@ -100,6 +100,16 @@ impl Operator {
         read
     }
 
+    /// The weight with which the mean of all rows reads each of so many vertices, for white light.
+    pub(crate) fn weights(&self, vertices: usize) -> Vec<f64> {
+        let count: usize = self.chunks.iter().map(|rows| rows.ends.len()).sum();
+        let mut read = vec![0.0; vertices];
+        for rows in &self.chunks {
+            rows.add_read_by(&vec![1.0 / count as f64; rows.ends.len()], &mut read);
+        }
+        read
+    }
+
     /// Appends the receivers of another operator.
     pub(crate) fn append(&mut self, other: Self) {
         self.chunks.extend(other.chunks);

@@ -248,7 +248,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             caustics::deposit(plan, self.particles, key.with(1));
         let kept = self.kept.as_ref();
         let kept = kept.map(|kept| kept.read(&plan.over(&direct), (1, key.with(6))));
-        let at_ends = kept.as_deref().unwrap_or(&direct);
+        let at_ends = kept.as_ref().map_or(&direct, |kept| &kept.values);
         let gathering = Gathering::of(plan, at_ends);
         let operator =
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;

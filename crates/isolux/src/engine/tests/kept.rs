@@ -4,6 +4,7 @@ use super::*;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{DirectAtEnds, DirectResidual, Gatherer, Gathering, Over};
 use crate::engine::light::{Goal, Lighting};
+use crate::engine::{MapReader, ProbePoint, SolveRequest, Watch, solve};
 use crate::map::Standing;
 
 const ROOM_M: [f64; 3] = [12.6, 12.6, 3.0];
@@ -69,7 +70,7 @@ fn rays_read_the_light_that_lands_between_vertices() {
     let (bare_lx, _) = read(&direct, 2);
     assert!((bare_lx / expected_lx - 1.0).abs() > 0.1, "{bare_lx} {expected_lx}");
     let kept = DirectResidual::of(&over, 0.01 * expected_lx, Key::new(1)).expect("light varies");
-    let increment = |k: u64| read(&kept.read(&over, (1, Key::new(2).with(k))), 3 + k).0;
+    let increment = |k: u64| read(&kept.read(&over, (1, Key::new(2).with(k))).values, 3 + k).0;
     let (kept_lx, error_lx) = mean_and_error((0..16).map(increment));
     let error_lx = libm::hypot(error_lx, expected_error_lx);
     // As Student has it, with fifteen degrees of freedom.
@@ -95,4 +96,31 @@ fn light_that_vertices_tell_is_left_as_it_is() {
         let over = Over { scene, lighting, elements, standings, direct, bright: None };
         assert!(DirectResidual::of(&over, allowed_lx, Key::new(1)).is_none());
     }
+}
+
+/// Regression: readings in space told the noise of their own rays alone, and not that of the direct light that all of them read. Walls that
+/// shine on both sides are so many luminaires that rays read it from the map.
+#[test]
+fn readings_tell_the_noise_that_they_share() {
+    const LUMINANCE_CD_M2: f64 = 50.0;
+    let finish =
+        Finish { luminance_cd_m2: Rgb::grey(LUMINANCE_CD_M2), ..Finish::diffuse(Rgb::grey(0.5)) };
+    let material = Material::two_sided("furnace", finish);
+    let room = scene(inward_box([4.0, 3.0, 2.5], 0), vec![material], vec![]);
+    assert!(Lighting::new(&room).are_read_at_ends());
+    let lx = std::f64::consts::PI * LUMINANCE_CD_M2 / 0.5;
+    let off = |seed: u64| {
+        let request = SolveRequest { accuracy: Some(0.03), seed, ..SolveRequest::default() };
+        let map = solve(&room, &request, None, &mut |_| Watch::Continue).unwrap().map;
+        let at = ProbePoint {
+            position: Point::new(1.5, 1.0, 1.0),
+            normal: isolux_geometry::Direction::Z.to_normal(),
+        };
+        let found = MapReader::new(&room, &map).measure(at).unwrap();
+        assert!(found.standard_error_lx < 0.03 * lx, "{found:?}");
+        (found.illuminance_lx() - lx) / found.standard_error_lx
+    };
+    let squares: f64 = (1..=12).map(off).map(|off| off * off).sum();
+    // The sum of twelve squares is larger once in a thousand times.
+    assert!(squares < 32.9, "{squares}");
 }

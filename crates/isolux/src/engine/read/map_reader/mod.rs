@@ -12,7 +12,7 @@ mod told;
 mod unlit;
 mod walls;
 
-use crate::engine::gather::{BrightSurfaces, DirectAtEnds, DirectResidual, Gatherer, Over};
+use crate::engine::gather::{BrightSurfaces, DirectAtEnds, DirectResidual, Gatherer, Kept, Over};
 use crate::engine::light::{Lighting, Patches};
 use crate::engine::mesh::LEAST as LEAST_OF_NOISE;
 use crate::engine::occlusion::{Barriers, nearby};
@@ -25,7 +25,7 @@ use effort::{FRESH_REPLICATES, LOOKS, OF_FEW, TRIAL_RAYS};
 use isolux_geometry::Ray;
 pub use pictured::PictureLight;
 use shared_noise::SharedNoise;
-use state::{Gathered, LocalFactors, StoredDirect, Unseen};
+use state::{FRESH_NOISE, Gathered, LocalFactors, StoredDirect, Unseen};
 pub use state::{MapReader, reference_lx};
 use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
@@ -33,9 +33,9 @@ pub use told::{Allowance, IndirectReading, Told};
 
 /// The number of shadow rays per emitting surface in a reading for a picture.
 pub(crate) const GLANCE_SAMPLES: usize = 4;
-/// The number of samples per element of the residual of direct light between vertices. All readings share
-/// their noise, which should be half of that of one sample.
-const KEPT: u64 = 4;
+/// The fewest and the most samples per element of the residual of direct light between vertices: as many, by fours, as keep the noise
+/// that all readings share within that of their own rays.
+const KEPT: [u64; 2] = [4, 256];
 
 /// The effort of [`MapReader::estimate`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,23 +92,25 @@ impl<'a> MapReader<'a> {
             patches: Patches::new(),
             unseen: Unseen::of(map),
             local: LocalFactors { of_vertices: Vec::new(), arriving: 0.0 },
-            shared_noise: SharedNoise::default(),
+            shared_noise: SharedNoise::of(Vec::new()),
             rays: AtomicU64::new(0),
         };
-        let (values, varying) = reader.kept().unzip();
-        let values = values.or(reader.at_ends.values.clone());
+        let (kept, varying) = reader.kept().unzip();
+        let noise = kept.as_ref().map_or(Vec::new(), |kept| kept.variances_lx2.clone());
+        let values = kept.map(|kept| kept.values).or(reader.at_ends.values.clone());
         let (of_vertices, arriving) = reader.parts_of_vertices();
         Self {
             backdrop: reader.walls(),
             at_ends: StoredDirect { values, varying },
             local: LocalFactors { of_vertices, arriving },
+            shared_noise: SharedNoise::of(noise),
             ..reader
         }
     }
 
     /// Direct light at the vertices as rays read it, with its residual between them, and the elements where
     /// it varies between vertices; `None` where there is no residual.
-    fn kept(&self) -> Option<(Vec<Rgb>, Vec<bool>)> {
+    fn kept(&self) -> Option<(Kept, Vec<bool>)> {
         let over = Over {
             scene: self.scene,
             lighting: &self.lighting,
@@ -119,8 +121,16 @@ impl<'a> MapReader<'a> {
         };
         let key = Key::new(self.map.provenance.seed).with(14);
         let kept = DirectResidual::of(&over, self.unseen.reached_lx, key.with(0))?;
-        self.count(kept.rays(KEPT));
-        Some((kept.read(&over, (KEPT, key.with(1))), kept.varying))
+        let allowed_lx = FRESH_NOISE * self.unseen.reached_lx;
+        let [mut samples, most] = KEPT;
+        loop {
+            let read = kept.read(&over, (samples, key.with(1)));
+            self.count(kept.rays(samples));
+            if kept.noise_lx(&read) <= allowed_lx || samples >= most {
+                return Some((read, kept.varying));
+            }
+            samples *= 4;
+        }
     }
 
     /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of its replicates

@@ -22,7 +22,7 @@ const DIMMEST: f64 = 0.05;
 
 /// The noise of gathered light in readings, in errors of the map. It adds about half of the squared error,
 /// and only where the map is not trusted.
-const FRESH_NOISE: f64 = 0.7;
+pub(super) const FRESH_NOISE: f64 = 0.7;
 
 /// The order of convergence of low-discrepancy rays from a few on, where something is close: noise falls like
 /// this power of 1/n. With the 0.85 of places in the open, readings of SPHERE had a quarter more error than
