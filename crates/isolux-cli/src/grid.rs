@@ -54,14 +54,15 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
         let read = |grid: &CalculationGrid| GridResult::of(grid.clone(), (&scene, &reader), &asked);
         grids.iter().map(read).collect::<Vec<GridResult>>()
     };
+    let judge = |map: &IlluminationMap| requirement::judge(&read(map), (&scene, map));
     let (map, outcome) = match map {
         Some(map) => (map, Outcome::Done),
-        None => decide::decided((&scene, &flags.source), flags.accuracy, (&grids, &read))?,
+        None => decide::decided((&scene, &flags.source), flags.accuracy, (&grids, &judge))?,
     };
     map_file::warn_of_unknown_error(&flags.source, &map);
     let light = Maintained::of(&scene);
     let results = read(&map);
-    let judged = requirement::judge(&results)?;
+    let judged = requirement::judge(&results, (&scene, &map))?;
     warn(&results, &map, light);
     if let Some(csv) = csv {
         csv.write(

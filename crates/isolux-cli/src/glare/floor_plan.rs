@@ -1,6 +1,6 @@
 //! Ratings over calculation grids: at each point the worst of several ways to look.
 
-use super::observer::{Observed, observed, written};
+use super::observer::{NO_GLARE, Observed, observed, written};
 use crate::console::table;
 use crate::failure::Failure;
 use crate::flags::{GlareFlags, GridChoice};
@@ -26,6 +26,9 @@ const ABOVE_M: f64 = 1e-3;
 
 /// Rays know a metre to a tenth of a micrometre: floors are written to whole ones.
 const ROUNDED_TO: f64 = 1e6;
+
+/// The height of the eyes of people who sit, m (EN 12464-1).
+const SEATED_M: f64 = 1.2;
 
 /// Eyes over grids.
 pub(super) struct Request {
@@ -62,7 +65,8 @@ pub(super) struct Rated {
 impl Request {
     pub(super) fn of(flags: &GlareFlags, scene: &Scene) -> Result<Self, Failure> {
         let grids = grids(flags, scene)?;
-        let eyes = |grid: &CalculationGrid| Eyes::of(grid, flags, scene);
+        let way = (flags.eye_height, flags.direction.as_slice());
+        let eyes = |grid: &CalculationGrid| Eyes::of(grid, way, scene);
         let grids = grids.iter().map(eyes).collect::<Result<_, _>>()?;
         Ok(Self { grids, limit: flags.limit })
     }
@@ -90,7 +94,11 @@ fn grids(flags: &GlareFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Fail
 }
 
 impl Eyes {
-    fn of(grid: &CalculationGrid, flags: &GlareFlags, scene: &Scene) -> Result<Self, Failure> {
+    fn of(
+        grid: &CalculationGrid,
+        (eye_height_m, directions): (f64, &[[f64; 3]]),
+        scene: &Scene,
+    ) -> Result<Self, Failure> {
         let up = scene.up().direction();
         let own = name(&grid.name);
         let is_level =
@@ -106,23 +114,23 @@ impl Eyes {
                 "grid `{own}` has no floor within {FLOOR_WITHIN_M} m below it; give it as --eye"
             )));
         };
-        let level_m = floor_m + flags.eye_height;
+        let level_m = floor_m + eye_height_m;
         let raised = |point: &Point| {
             let height_m = point.to_vector().dot(up.to_vector());
             *point + up.to_vector() * (level_m - height_m)
         };
         let points = points.iter().map(raised).collect();
-        Ok(Self { grid: grid.name.clone(), points, ways: ways(grid, flags, up)?, up })
+        Ok(Self { grid: grid.name.clone(), points, ways: ways(grid, directions, up)?, up })
     }
 }
 
 /// Ways to look: those asked for, level; or along the sides of the grid, to and fro.
 fn ways(
     grid: &CalculationGrid,
-    flags: &GlareFlags,
+    directions: &[[f64; 3]],
     up: Direction,
 ) -> Result<Vec<Direction>, Failure> {
-    if flags.direction.is_empty() {
+    if directions.is_empty() {
         let sides = [grid.u, -grid.u, grid.v, -grid.v];
         return Ok(sides.into_iter().filter_map(Vector::direction).collect());
     }
@@ -137,7 +145,7 @@ fn ways(
             )
         })
     };
-    flags.direction.iter().map(level).collect()
+    directions.iter().map(level).collect()
 }
 
 /// The height of the floor that most points stand on: of what lies below them and faces up, the lowest; of what faces down, where
@@ -165,6 +173,28 @@ fn floor_below_one(scene: &Scene, point: Point, up: Direction) -> Option<f64> {
         ray = Ray::new(at, -up).up_to(left_m as f32).skipping(hit.triangle);
     }
     facing_up.or(any)
+}
+
+/// The worst rating on a grid, of people who sit and look along its sides: [`NO_GLARE`] where nothing that shines is in view.
+pub(crate) fn worst(
+    (scene, reader): (&Scene, &MapReader),
+    grid: &CalculationGrid,
+) -> Result<Interval, Failure> {
+    let eyes = Eyes::of(grid, (SEATED_M, &[]), scene)?;
+    let rated = Rated::of(&eyes, 0.0, (scene, reader));
+    let own = name(&grid.name);
+    if rated.luminaires_left_out > 0 {
+        let lamps = counted(rated.luminaires_left_out, "luminaire has", "luminaires have");
+        return Err(Failure::bad_input(format!(
+            "UGR on grid `{own}`: {lamps} no luminous area and so no luminance; give them one, or leave UGR out"
+        )));
+    }
+    if rated.unknown == rated.points {
+        return Err(Failure::bad_input(format!(
+            "UGR on grid `{own}`: nothing is known at the height of eyes; put it into a lit room"
+        )));
+    }
+    Ok(rated.worst.and_then(|of| of.ugr).unwrap_or(Interval::exact(NO_GLARE)))
 }
 
 /// Looks from all points all ways.

@@ -13,6 +13,7 @@ use crate::interval::Interval;
 use crate::map_file;
 use crate::output::OutputPath;
 use crate::shown::name;
+pub(crate) use floor_plan::worst;
 use isolux::engine::MapReader;
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};

@@ -17,7 +17,7 @@ use serde::Serialize;
 use std::f64::consts::{LN_10, PI};
 
 /// Below this the unified glare rating is that of no glare (CIE 117:1995).
-const NO_GLARE: f64 = 10.0;
+pub(super) const NO_GLARE: f64 = 10.0;
 
 /// What an observer sees.
 #[derive(Clone, Debug, Serialize)]

@@ -1,7 +1,6 @@
 //! The map of a scene that decides what is required of its grids.
 
-use super::requirement::{are_there, judge};
-use super::result::GridResult;
+use super::requirement::{Judged, are_there};
 use crate::failure::{Failure, Outcome};
 use crate::interval::Verdict;
 use crate::solving;
@@ -14,15 +13,14 @@ use std::path::Path;
 /// is undecided at the last is too near its bound.
 const ACCURACIES: [f64; 5] = [0.04, 0.02, 0.01, 0.005, 0.0025];
 
-/// How grids are read on a map.
-type Read<'a> = &'a dyn Fn(&IlluminationMap) -> Vec<GridResult>;
+/// What is required, judged on a map.
+type Judge<'a> = &'a dyn Fn(&IlluminationMap) -> Result<Vec<Judged>, Failure>;
 
-/// The map of a scene: as accurate as asked or, with requirements and no accuracy, as accurate as they need to be decided. `read`
-/// reads the grids on a map.
+/// The map of a scene: as accurate as asked or, with requirements and no accuracy, as accurate as they need to be decided.
 pub(crate) fn decided(
     (scene, source): (&Scene, &Path),
     accuracy: Option<f64>,
-    (grids, read): (&[CalculationGrid], Read<'_>),
+    (grids, judge): (&[CalculationGrid], Judge<'_>),
 ) -> Result<(IlluminationMap, Outcome), Failure> {
     let default = SolveRequest::default();
     let solved = |accuracy: Option<f64>| {
@@ -36,7 +34,7 @@ pub(crate) fn decided(
     let [first, finer @ ..] = ACCURACIES;
     let mut found = solved(Some(first))?;
     for accuracy in finer {
-        let judged = judge(&read(&found.0))?;
+        let judged = judge(&found.0)?;
         let is_decided = judged.iter().all(|judged| judged.verdict != Verdict::Undecided);
         if is_decided || found.1 != Outcome::Done {
             break;

@@ -2,12 +2,14 @@
 
 use super::result::GridResult;
 use crate::failure::Failure;
+use crate::glare;
 use crate::interval::{Interval, Verdict};
 use crate::maintained::Maintained;
 use crate::notes::{Note, note};
 use crate::shown::name;
-use isolux::map::GridFigures;
-use isolux::scene::{CalculationGrid, Condition, GridQuantity, Requirement};
+use isolux::engine::MapReader;
+use isolux::map::{GridFigures, IlluminationMap};
+use isolux::scene::{CalculationGrid, Condition, GridQuantity, Requirement, Scene};
 use isolux_formats::requirement;
 use serde::Serialize;
 
@@ -59,7 +61,10 @@ pub(crate) fn are_there(grids: &[CalculationGrid]) -> bool {
 }
 
 /// All conditions on all grids.
-pub(super) fn judge(results: &[GridResult]) -> Result<Vec<Judged>, Failure> {
+pub(crate) fn judge(
+    results: &[GridResult],
+    lit: (&Scene, &IlluminationMap),
+) -> Result<Vec<Judged>, Failure> {
     let mut judged = Vec::new();
     for GridResult { read, .. } in results {
         if read.grid.requirements.is_empty() {
@@ -70,21 +75,33 @@ pub(super) fn judge(results: &[GridResult]) -> Result<Vec<Judged>, Failure> {
             let what = format!("nothing is known on grid `{grid}`, of which something is required");
             return Err(Failure::bad_input(format!("{what}; put it where light is")));
         };
-        judged.extend(of_grid(&read.grid, figures));
+        judged.extend(of_grid(&read.grid, (figures, rating(&read.grid, lit)?)));
     }
     Ok(judged)
 }
 
-/// All conditions on a grid.
+/// The worst glare rating on a grid, if something is required of it.
+pub(crate) fn rating(
+    grid: &CalculationGrid,
+    (scene, map): (&Scene, &IlluminationMap),
+) -> Result<Option<Interval>, Failure> {
+    let mut conditions = grid.requirements.iter().flat_map(|of| &of.conditions);
+    match conditions.any(|condition| condition.of == GridQuantity::GlareRating) {
+        true => glare::worst((scene, &MapReader::new(scene, map)), grid).map(Some),
+        false => Ok(None),
+    }
+}
+
+/// All conditions on a grid, by its figures and its rating.
 pub(crate) fn of_grid<'a>(
     grid: &'a CalculationGrid,
-    figures: &'a GridFigures,
+    (figures, rating): (&'a GridFigures, Option<Interval>),
 ) -> impl Iterator<Item = Judged> + 'a {
     let of = |requirement: &'a Requirement| {
-        requirement.conditions.iter().map(|&of| {
-            let figure = figure(of.of, figures);
+        requirement.conditions.iter().filter_map(move |&of| {
+            let figure = figure(of.of, figures).or(rating)?;
             let above = figure.probability_above(of.bound);
-            Judged {
+            Some(Judged {
                 grid: grid.name.clone(),
                 task: requirement.task.clone(),
                 of,
@@ -94,20 +111,22 @@ pub(crate) fn of_grid<'a>(
                     false => figure.keeps_within(of.bound),
                 },
                 probability: if of.is_least { above } else { 1.0 - above },
-            }
+            })
         })
     };
     grid.requirements.iter().flat_map(of)
 }
 
-const fn figure(of: GridQuantity, figures: &GridFigures) -> Interval {
-    match of {
+/// `None` of a rating, which has figures of its own.
+const fn figure(of: GridQuantity, figures: &GridFigures) -> Option<Interval> {
+    Some(match of {
         GridQuantity::Mean => figures.mean_lx,
         GridQuantity::Least => figures.least_lx,
         GridQuantity::Greatest => figures.greatest_lx,
         GridQuantity::Uniformity => figures.uniformity,
         GridQuantity::Diversity => figures.diversity,
-    }
+        GridQuantity::GlareRating => return None,
+    })
 }
 
 /// Standards require maintained values.

@@ -5,8 +5,9 @@ use crate::failure::Failure;
 use crate::flags::InputFlags;
 use crate::grid::Asked;
 use crate::grid::picture::height_m;
-use crate::grid::requirement::{Judged, of_grid};
+use crate::grid::requirement::{Judged, of_grid, rating};
 use crate::grid::result::GridResult;
+use crate::interval::Interval;
 use crate::shown::name;
 use isolux::engine::MapReader;
 use isolux::map::{Illuminance, IlluminationMap};
@@ -23,7 +24,8 @@ pub(super) fn of(
     (inputs, language): (&InputFlags, Language),
 ) -> Result<Vec<Area>, Failure> {
     let area = |result: &GridResult| {
-        let area = area(scene, result, language)?;
+        let rating = rating(&result.read.grid, (scene, map))?;
+        let area = area(scene, (result, rating), language)?;
         Ok(Area { budget: budgeted(scene, result, inputs)?, ..area })
     };
     read((scene, map), grids).iter().map(area).collect()
@@ -40,14 +42,18 @@ pub(super) fn read(
     grids.iter().map(read).collect()
 }
 
-fn area(scene: &Scene, result: &GridResult, language: Language) -> Result<Area, Failure> {
+fn area(
+    scene: &Scene,
+    (result, rating): (&GridResult, Option<Interval>),
+    language: Language,
+) -> Result<Area, Failure> {
     let read = &result.read;
     let grid = &read.grid;
     let maintained: Vec<Option<Illuminance>> = read.maintained().collect();
     let mut errors_lx: Vec<f64> =
         maintained.iter().flatten().map(|value| value.standard_error_lx).collect();
     errors_lx.sort_by(f64::total_cmp);
-    let judged = read.figures.iter().flat_map(|figures| of_grid(grid, figures));
+    let judged = read.figures.iter().flat_map(|figures| of_grid(grid, (figures, rating)));
     Ok(Area {
         name: name(&grid.name),
         plan: match &read.figures {
@@ -108,6 +114,7 @@ fn required(judged: &Judged) -> Requirement {
                 GridQuantity::Greatest => Quantity::Greatest,
                 GridQuantity::Uniformity => Quantity::Uniformity,
                 GridQuantity::Diversity => Quantity::Diversity,
+                GridQuantity::GlareRating => Quantity::GlareRating,
             },
             is_least: judged.of.is_least,
             bound: judged.of.bound,

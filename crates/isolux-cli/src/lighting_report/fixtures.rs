@@ -116,7 +116,7 @@ fn common(names: &[&str]) -> String {
     };
     let length = rest.iter().map(|name| shared(first, name).unwrap_or(0)).min();
     let start = first[..length.unwrap_or(first.len())].trim_end_matches(|c: char| {
-        c.is_ascii_digit() || c.is_whitespace() || "[(,_-#.".contains(c)
+        c.is_ascii_digit() || c.is_whitespace() || "[](),_-#.".contains(c)
     });
     if start.is_empty() { (*first).to_owned() } else { start.to_owned() }
 }

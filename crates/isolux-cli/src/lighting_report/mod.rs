@@ -91,8 +91,10 @@ impl Opened {
             true => (None, Outcome::Done),
             false => {
                 let asked = (&scene, flags.source.as_path());
-                let read = |map: &IlluminationMap| areas::read((&scene, map), &grids);
-                let (map, outcome) = decide::decided(asked, flags.accuracy, (&grids, &read))?;
+                let judge = |map: &IlluminationMap| {
+                    requirement::judge(&areas::read((&scene, map), &grids), (&scene, map))
+                };
+                let (map, outcome) = decide::decided(asked, flags.accuracy, (&grids, &judge))?;
                 (Some(map), outcome)
             }
         };

@@ -13,7 +13,7 @@ use isolux_report::{Glare, Image, Observer, View};
 use isolux_view::Picture;
 
 /// The size of pictures, pixels.
-const SIZE: (u32, u32) = (1280, 720);
+const SIZE: (u32, u32) = (1120, 630);
 
 /// The pictures of the cameras asked for, of all if none is, and the glare that each sees.
 pub(super) fn of(

@@ -302,6 +302,7 @@ fn texels_in_the_map_are_those_that_would_be_baked() {
 }
 
 #[test]
+#[ignore = "slow: cargo xtask test --all"]
 fn below_a_dark_sky_a_room_has_few_texels_and_that_is_told() {
     let home = Home::new();
     let sky = "[[geometry]]\nbox = { min = [-500, -500, -500], max = [500, 500, 500], inward = true }\nmaterial = \"grey\"\n";

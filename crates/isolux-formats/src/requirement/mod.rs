@@ -6,7 +6,7 @@ use isolux::scene::{Condition, GridQuantity, Requirement};
 use tasks::task;
 
 const HOW: &str =
-    "write `Em >= 500`, with Em, Emin, Emax, U0 or Ud, and >= or <=; or `EN 12464-1 34.2`";
+    "write `Em >= 500`, with Em, Emin, Emax, U0, Ud or UGR, and >= or <=; or `EN 12464-1 34.2`";
 
 /// Reads conditions, or a task.
 pub fn requirement(text: &str) -> Result<Requirement, String> {

@@ -19,11 +19,11 @@ pub struct Condition {
     pub of: GridQuantity,
     /// Whether the bound is the least that it may be, else the most.
     pub is_least: bool,
-    /// The bound, lx or a ratio.
+    /// The bound, lx, a ratio, or a rating.
     pub bound: f64,
 }
 
-/// A figure of a grid, maintained.
+/// A figure of a grid; illuminances are maintained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridQuantity {
@@ -37,16 +37,19 @@ pub enum GridQuantity {
     Uniformity,
     /// Least over greatest.
     Diversity,
+    /// The worst unified glare rating of people who sit there.
+    GlareRating,
 }
 
 impl GridQuantity {
     /// All of them by the symbols of EN 12464-1.
-    pub const ALL: [(&'static str, Self); 5] = [
+    pub const ALL: [(&'static str, Self); 6] = [
         ("Em", Self::Mean),
         ("Emin", Self::Least),
         ("Emax", Self::Greatest),
         ("U0", Self::Uniformity),
         ("Ud", Self::Diversity),
+        ("UGR", Self::GlareRating),
     ];
 
     /// Its symbol.
@@ -58,14 +61,14 @@ impl GridQuantity {
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Mean | Self::Least | Self::Greatest => " lx",
-            Self::Uniformity | Self::Diversity => "",
+            Self::Uniformity | Self::Diversity | Self::GlareRating => "",
         }
     }
 
-    /// The greatest value that a bound may have; none for illuminances.
+    /// The greatest value that a bound may have, if there is one.
     pub const fn most(self) -> Option<f64> {
         match self {
-            Self::Mean | Self::Least | Self::Greatest => None,
+            Self::Mean | Self::Least | Self::Greatest | Self::GlareRating => None,
             Self::Uniformity | Self::Diversity => Some(1.0),
         }
     }

@@ -70,6 +70,7 @@ fn one_face_of_many_is_unbiased() {
 
 /// Whether few combs are drawn or every face is looked at.
 #[test]
+#[ignore = "slow: cargo xtask test --all"]
 fn measured_faces_are_as_near_as_they_say() {
     for (count, goal) in [(12, Goal::lux(0.5)), (60, Goal::reading(0.01)), (60, Goal::ANY)] {
         let scene = hall_of_panels(count, 0);

@@ -64,6 +64,7 @@ fn light_of_points_that_comes_over_glass_is_reflected_by_walls() {
 
 /// Of emitting surfaces paths find all light, that which the pane reflects onto walls included.
 #[test]
+#[ignore = "slow: cargo xtask test --all"]
 fn light_of_emitting_surfaces_that_comes_over_glass_is_found() {
     let panel = rectangle([1.0, 1.0, 2.9], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], 2);
     let scene = room_with_pane(vec![panel], Vec::new());
