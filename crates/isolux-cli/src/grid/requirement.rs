@@ -97,7 +97,7 @@ pub(crate) fn of_grid<'a>(
     grid: &'a CalculationGrid,
     (figures, rating): (&'a GridFigures, Option<Interval>),
 ) -> impl Iterator<Item = Judged> + 'a {
-    let of = |requirement: &'a Requirement| {
+    let of = move |requirement: &'a Requirement| {
         requirement.conditions.iter().filter_map(move |&of| {
             let figure = figure(of.of, figures).or(rating)?;
             let above = figure.probability_above(of.bound);

@@ -141,7 +141,11 @@ impl DirectResidual {
         for (leaf, all) in self.leaves.iter().zip(all) {
             let variance_lm2 = variance_of_mean(&all);
             let thirds = over.thirds(leaf.vertices);
-            let share = |(vertex, weight): (u32, f64)| weight / self.hats_m2[vertex as usize];
+            // A vertex that nothing is read of stands for no area.
+            let share = |(vertex, weight): (u32, f64)| match self.hats_m2[vertex as usize] {
+                0.0 => 0.0,
+                hat_m2 => weight / hat_m2,
+            };
             let shares: f64 = thirds.iter().flatten().map(|&corner| share(corner)).sum();
             for (vertex, weight) in thirds.into_iter().flatten() {
                 sampled_m2[vertex as usize] += weight * leaf.area_m2;
