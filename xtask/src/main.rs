@@ -35,7 +35,7 @@ cargo xtask test    everything that must hold before a change lands; with --all 
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask page    of it, the tests of the walk-through's page, and whether its built file is that of its sources
-cargo xtask walk    of it, the walk-through in Chromium, beside what the command says of the same maps
+cargo xtask walk    of --all, the walk-through in Chromium, beside what the command says of the same maps
 cargo xtask loader three  of --all, the loader of three.js in Chromium, beside what the command says of the same map
 cargo xtask lamps   of --all, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of --all, differences of colours beside colour-science
