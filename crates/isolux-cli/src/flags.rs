@@ -1,6 +1,9 @@
 //! Arguments as written.
 
 mod budget;
+mod daylight;
+mod glare;
+mod grid;
 mod grid_choice;
 mod render;
 mod report;
@@ -8,18 +11,20 @@ mod shown;
 mod solve;
 
 pub(crate) use budget::{BudgetFlags, InputFlags};
+pub(crate) use daylight::{DaylightFlags, YearFlags};
+pub(crate) use glare::{GlareFlags, GlareMetric};
+pub(crate) use grid::{EmergencyName, GridFlags, QuantityName};
 pub(crate) use grid_choice::GridChoice;
 pub(crate) use render::{
     EyeFlags, LookFlags, RadianceFlags, RenderFlags, ToneName, with_two_dashes,
 };
-pub(crate) use report::{LanguageName, ReportFlags, YearFlags};
+pub(crate) use report::{LanguageName, ReportFlags};
 pub(crate) use shown::{ExportFlags, LayoutFlags, LayoutName, ServerFlags, TargetName, ViewFlags};
 pub(crate) use solve::{BakeFlags, MethodName, ProgressStyle, Quality, RadiosityFlags, SolveFlags};
 
 use solve::{FURTHER_HELP, SCENE_HELP};
 
 use crate::dimming::{DimmedMap, dimmed_group};
-use crate::glare_threshold::{Threshold, glare_threshold};
 use crate::quantity;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -280,185 +285,6 @@ pub(crate) struct AuditFlags {
     /// Seed of places and paths [default: that of the map]
     #[arg(long, value_name = "N", value_parser = quantity::seed, allow_hyphen_values = true)]
     pub seed: Option<u64>,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:
-  isolux grid map.glb
-  isolux grid map.glb --height 0.75 --maintenance-factor 0.8 -o plan.png
-  isolux grid room.toml --accuracy 2% --name desk --csv desk.csv
-  isolux grid map.glb --corner 0,0,0.75 --u 2,0,0 --v 0,1,0 --spacing 0.25
-  isolux grid map.glb --height 1.2 --quantity cylindrical --require \"Em >= 50, U0 >= 0.1\"
-  isolux grid map.glb --height 1.2 --quantity modelling -o modelling.png
-  isolux grid map.glb --height 1.6 --quantity semi-cylindrical --facing 90
-  isolux grid room.toml --name corridor --emergency escape-route
-
-Grids are those of the scene ([[grid]] in scene.toml), or one given here. Points lie in the middles of cells as \
-EN 12464-1 spaces them and face the way of u cross v. Values are maintained illuminance: the initial one times \
-the maintenance factor. Intervals are of 95 %. A scene is solved first; to keep its map, solve it yourself.")]
-pub(crate) struct GridFlags {
-    /// The map (.glb), or a scene
-    #[arg(value_name = "MAP|SCENE")]
-    pub source: PathBuf,
-    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
-    pub further: Vec<PathBuf>,
-    #[command(flatten)]
-    pub grid: GridChoice,
-    /// The share of the initial light that is left when maintained: 0.8 or 80%; 1 is all of it [default: the grid's, else 1]
-    #[arg(long, value_name = "SHARE", value_parser = quantity::maintenance_factor, allow_hyphen_values = true)]
-    pub maintenance_factor: Option<f64>,
-    /// Of a scene: solve it to this accuracy [default: 1%, or what --require needs]
-    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
-    pub accuracy: Option<f64>,
-    /// Judge emergency lighting by EN 1838:2013: direct light of the luminaires marked `emergency` in scene.toml alone. Exit code 1
-    /// unless all is surely met
-    #[arg(long, value_enum, value_name = "KIND", conflicts_with_all = ["csv", "picture", "require", "quantity", "accuracy"])]
-    pub emergency: Option<EmergencyName>,
-    /// With --emergency high-risk: the illuminance that the task requires, lx
-    #[arg(long, value_name = "LX", value_parser = quantity::task_lx, allow_hyphen_values = true, requires = "emergency")]
-    pub task: Option<f64>,
-    /// What is read at the points: of planes, or of sensors that see all round; modelling is cylindrical over horizontal illuminance
-    #[arg(long, value_enum, value_name = "QUANTITY", default_value_t = QuantityName::Illuminance)]
-    pub quantity: QuantityName,
-    /// The way that semi-cylindrical illuminance faces in plan, degrees: 0 for +x, 90 for +y (-z where y is up)
-    #[arg(long, value_name = "DEG", value_parser = quantity::azimuth_deg, allow_hyphen_values = true)]
-    pub facing: Option<f64>,
-    /// What has to hold on a grid, or on all: "desks: Em >= 500, U0 >= 0.6", or "desks: EN 12464-1 34.2"; may be repeated.
-    /// Exit code 1 unless it is surely met; a scene is solved until that is decided
-    #[arg(long, value_name = "WHAT")]
-    pub require: Vec<String>,
-    /// Write all points with their values
-    #[arg(long, value_name = "FILE.csv")]
-    pub csv: Option<PathBuf>,
-    /// Significant digits of illuminances in the CSV [default: two below the first digit of the standard error]
-    #[arg(long, value_name = "N", value_parser = quantity::digits, allow_hyphen_values = true, requires = "csv")]
-    pub digits: Option<u8>,
-    /// Draw the one grid as a plan: the room cut at its height, luminaires, values, isolux lines; u to the right and v up
-    #[arg(short = 'o', long, value_name = "FILE.png|FILE.svg")]
-    pub picture: Option<PathBuf>,
-}
-
-/// Areas of emergency lighting.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum EmergencyName {
-    /// A strip of at most 2 m: 1 lx on the centre line, 0.5 lx in the middle half, 40:1 along the line
-    EscapeRoute,
-    /// 0.5 lx and 40:1 without the outer 0.5 m (anti-panic lighting)
-    OpenArea,
-    /// 10 % of the task's illuminance, at least 15 lx, and a uniformity of 0.1
-    HighRisk,
-}
-
-/// What is read at the points of a grid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum QuantityName {
-    /// Of planes that face the way of the grid
-    Illuminance,
-    /// Mean of vertical illuminances over all azimuths, Ez
-    Cylindrical,
-    /// Mean over the half circle about --facing, Esc
-    SemiCylindrical,
-    /// Mean over a half sphere that faces up, Ehs
-    Hemispherical,
-    /// Ez over horizontal illuminance
-    Modelling,
-}
-
-/// How glare is rated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum GlareMetric {
-    /// The unified glare rating of luminaires (CIE 117)
-    Ugr,
-    /// The daylight glare probability
-    Dgp,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:
-  isolux glare map.glb
-  isolux glare map.glb --eye 1,2,1.2 --target 5,2,1.2 --json
-  isolux glare map.glb --grid desks --limit 19
-  isolux glare map.glb --all-grids --direction 0,1,0 --csv glare.csv
-  isolux glare noon.glb --metric dgp --eye 2,3,1.2 --target 2,0,1.2
-
-The rating is that of CIE 117:1995, with the position index of Guth and the indirect light at the eye. Luminaires shine from their luminous area. \
-Without --eye the cameras of the scene look. It is made for artificial light: for windows it says little, \
-and --metric dgp gives the daylight glare probability.")]
-#[command(group(clap::ArgGroup::new("grids").args(["grid", "all_grids"]).multiple(true)))]
-pub(crate) struct GlareFlags {
-    /// The map (.glb)
-    #[arg(value_name = "MAP.glb")]
-    pub map: PathBuf,
-    /// A camera of the scene as the observer; several: --camera again
-    #[arg(long, value_name = "NAME")]
-    pub camera: Vec<String>,
-    /// Where an observer's eye is, x,y,z, in metres and in the axes of the scene as written
-    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, conflicts_with = "camera")]
-    pub eye: Option<[f64; 3]>,
-    /// What it looks at
-    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "eye")]
-    pub target: Option<[f64; 3]>,
-    /// Which rating
-    #[arg(long, value_enum, default_value_t = GlareMetric::Ugr)]
-    pub metric: GlareMetric,
-    /// What glares in daylight (--metric dgp): a luminance in cd/m2, or as 5x a multiple of the mean of the view
-    /// [default: 2000]
-    #[arg(long, value_name = "CD/M2|FACTORx", value_parser = glare_threshold, allow_hyphen_values = true)]
-    pub threshold: Option<Threshold>,
-    /// Observers at all points of a calculation grid; several: --grid again
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["camera", "eye"])]
-    pub grid: Vec<String>,
-    /// Observers at all points of all grids
-    #[arg(long, conflicts_with_all = ["camera", "eye", "grid"])]
-    pub all_grids: bool,
-    /// A way to look, level; several: --direction again, of which the worst counts [default: along the sides of the grid, to and fro]
-    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "grids")]
-    pub direction: Vec<[f64; 3]>,
-    /// Height of the eyes of a grid above its floor, m; 1.6 of people who stand
-    #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true, requires = "grids", default_value = "1.2")]
-    pub eye_height: f64,
-    /// The rating that points are to keep within
-    #[arg(long, value_name = "UGR", value_parser = quantity::rating, allow_hyphen_values = true, requires = "grids", default_value = "19")]
-    pub limit: f64,
-    /// Write all views of the grids to this file (.csv)
-    #[arg(long, value_name = "FILE.csv", requires = "grids")]
-    pub csv: Option<PathBuf>,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:
-  isolux daylight office.toml --weather berlin.epw --height 0.8
-  isolux daylight office.toml --weather berlin.epw --name desks --csv points.csv --json
-
-Daylight coefficients are traced once for every point; every hour of the weather file is then a sum. Skies are those of Perez, the sun's \
-direct light is traced to where it is. Luminaires are switched off, blinds are not drawn. Intervals hold the noise of paths at 95 %.")]
-pub(crate) struct DaylightFlags {
-    /// The scene, with calculation grids or a --height; its own sky only tells where north is
-    #[arg(value_name = "SCENE")]
-    pub source: PathBuf,
-    #[arg(value_name = "MORE.rad", help = FURTHER_HELP)]
-    pub further: Vec<PathBuf>,
-    /// A year of weather (EnergyPlus)
-    #[arg(long, value_name = "FILE.epw")]
-    pub weather: PathBuf,
-    #[command(flatten)]
-    pub grid: GridChoice,
-    /// Hours of use of every day by standard time, from and to
-    #[arg(long, value_name = "FROM..TO", value_parser = quantity::hours_of_day, default_value = "8..18")]
-    pub hours: (u32, u32),
-    /// Reflectance of the ground beyond the scene in the hours of the year; the daylight factor has black ground
-    #[arg(long, value_name = "SHARE", value_parser = quantity::reflectance, default_value = "0.2", allow_hyphen_values = true)]
-    pub ground_reflectance: f64,
-    /// Paths from every point; more make intervals narrower
-    #[arg(long, value_name = "N", default_value_t = 16_384, value_parser = clap::value_parser!(u32).range(256..=16_777_216))]
-    pub paths: u32,
-    /// Seed of random numbers
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// Write all points with their figures
-    #[arg(long, value_name = "FILE.csv")]
-    pub csv: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -15,13 +15,12 @@ mod warnings;
 
 use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
-use crate::interval::Verdict;
-use crate::maintained::{self, Maintained};
+use crate::maintained::Maintained;
 use crate::output::OutputPath;
 use crate::{map_file, source};
 pub(crate) use asked::Asked;
 use isolux::engine::MapReader;
-use isolux::map::IlluminationMap;
+use isolux::map::{IlluminationMap, Verdict};
 use isolux::scene::{CalculationGrid, Scene};
 use isolux::units::Digits;
 use report::Found;
@@ -49,20 +48,23 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
             grids.len()
         )));
     }
-    let read = |map: &IlluminationMap| {
-        let reader = MapReader::new(&scene, map);
-        let read = |grid: &CalculationGrid| GridResult::of(grid.clone(), (&scene, &reader), &asked);
+    let read = |reader: &MapReader| {
+        let read = |grid: &CalculationGrid| GridResult::of(grid.clone(), (&scene, reader), &asked);
         grids.iter().map(read).collect::<Vec<GridResult>>()
     };
-    let judge = |map: &IlluminationMap| requirement::judge(&read(map), (&scene, map));
+    let judge = |map: &IlluminationMap| {
+        let reader = MapReader::new(&scene, map);
+        requirement::judge(&read(&reader), (&scene, &reader))
+    };
     let (map, outcome) = match map {
         Some(map) => (map, Outcome::Done),
         None => decide::decided((&scene, &flags.source), flags.accuracy, (&grids, &judge))?,
     };
     map_file::warn_of_unknown_error(&flags.source, &map);
     let light = Maintained::of(&scene);
-    let results = read(&map);
-    let judged = requirement::judge(&results, (&scene, &map))?;
+    let reader = MapReader::new(&scene, &map);
+    let results = read(&reader);
+    let judged = requirement::judge(&results, (&scene, &reader))?;
     warn(&results, &map, light);
     if let Some(csv) = csv {
         csv.write(
@@ -84,13 +86,7 @@ fn opened(flags: &GridFlags) -> Result<(Scene, Option<IlluminationMap>), Failure
     if !map_file::is_map(&flags.source) {
         return Ok((source::read_scene(&flags.source)?, None));
     }
-    if flags.accuracy.is_some() {
-        return Err(Failure::bad_input(format!(
-            "--accuracy: {} is a map, which is solved; leave it out or give a scene",
-            flags.source.display()
-        )));
-    }
-    let (scene, map) = map_file::read(&flags.source)?;
+    let (scene, map) = map_file::read_solved(&flags.source, flags.accuracy)?;
     Ok((scene, Some(map)))
 }
 
@@ -99,17 +95,14 @@ fn grids(
     (flags, asked): (&GridFlags, &Asked),
     scene: &Scene,
 ) -> Result<Vec<CalculationGrid>, Failure> {
-    if let Some(factor) = flags.maintenance_factor {
-        maintained::refuse_second(factor, scene, &flags.source)?;
+    let maintained = flags.maintenance_factor;
+    if asked.is_planar() {
+        let required = (maintained, flags.require.as_slice());
+        return requirement::grids(&flags.grid, required, (&flags.source, scene));
     }
-    let mut grids = choice::chosen(&flags.grid, &flags.source, scene)?;
-    for grid in &mut grids {
-        grid.maintenance_factor = flags.maintenance_factor.unwrap_or(grid.maintenance_factor);
-        if !asked.is_planar() {
-            // What a scene requires is of illuminance.
-            grid.requirements.clear();
-        }
-    }
+    // What a scene requires is of illuminance.
+    let mut grids = requirement::grids(&flags.grid, (maintained, &[]), (&flags.source, scene))?;
+    grids.iter_mut().for_each(|grid| grid.requirements.clear());
     requirement::add(&flags.require, &mut grids)?;
     Ok(grids)
 }

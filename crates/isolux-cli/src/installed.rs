@@ -2,9 +2,9 @@
 
 mod floor;
 
-use crate::interval::Interval;
 use crate::quantity::significant;
 use floor::floor_m2;
+use isolux::map::Figure;
 use isolux::scene::Scene;
 use isolux::units::to_error;
 use isolux_formats::counted;
@@ -51,16 +51,16 @@ impl Installed {
     }
 
     /// Power density for every 100 lx of a mean illuminance, W/m2.
-    pub(crate) fn per_100_lx(&self, mean_lx: Interval) -> Option<Interval> {
+    pub(crate) fn per_100_lx(&self, mean_lx: Figure) -> Option<Figure> {
         let w_m2 = self.power_density_w_m2?;
         let per = |lx: f64| w_m2 * COMPARED_LX / lx;
-        let Interval { value, low, high } = mean_lx;
-        (low > 0.0).then(|| Interval { value: per(value), low: per(high), high: per(low) })
+        let Figure { value, low, high } = mean_lx;
+        (low > 0.0).then(|| Figure { value: per(value), low: per(high), high: per(low) })
     }
 
     /// The words for it, with power densities for every 100 lx on grids, if there are luminaires that need power.
-    pub(crate) fn with_grids(&self, grids: &[(String, Interval)]) -> Option<String> {
-        let per = |(grid, mean_lx): &(String, Interval)| {
+    pub(crate) fn with_grids(&self, grids: &[(String, Figure)]) -> Option<String> {
+        let per = |(grid, mean_lx): &(String, Figure)| {
             let per = self.per_100_lx(*mean_lx)?;
             let written = |w_m2: f64| to_error(w_m2, 0.5 * (per.high - per.low));
             let [value, low, high] = [per.value, per.low, per.high].map(written);
@@ -102,9 +102,9 @@ mod tests {
         let all = Installed::new((240.0, 8, 0), Some(30.0));
         assert_eq!(all.power_density_w_m2, Some(8.0));
         assert_eq!(all.text().unwrap(), "240.0 W, 8.00 W/m2 of 30.0 m2 floor");
-        let per = all.per_100_lx(Interval { value: 400.0, low: 320.0, high: 500.0 }).unwrap();
-        assert_eq!(per, Interval { value: 2.0, low: 1.6, high: 2.5 });
-        assert_eq!(all.per_100_lx(Interval { value: 0.0, low: 0.0, high: 0.0 }), None);
+        let per = all.per_100_lx(Figure { value: 400.0, low: 320.0, high: 500.0 }).unwrap();
+        assert_eq!(per, Figure { value: 2.0, low: 1.6, high: 2.5 });
+        assert_eq!(all.per_100_lx(Figure { value: 0.0, low: 0.0, high: 0.0 }), None);
     }
 
     #[test]

@@ -41,7 +41,6 @@ mod groups;
 mod info;
 mod installed;
 mod interrupt;
-mod interval;
 mod kept;
 mod lamp;
 mod lighting_report;

@@ -28,6 +28,20 @@ pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
     Ok(loaded.value)
 }
 
+/// Reads a map that is read for its figures: it is solved, and takes no accuracy.
+pub(crate) fn read_solved(
+    path: &Path,
+    accuracy: Option<f64>,
+) -> Result<(Scene, IlluminationMap), Failure> {
+    if accuracy.is_some() {
+        return Err(Failure::bad_input(format!(
+            "--accuracy: {} is a map, which is solved; leave it out or give a scene",
+            path.display()
+        )));
+    }
+    read(path)
+}
+
 /// The same with the texels that the file holds.
 pub(crate) fn read_with_texels(path: &Path) -> Result<MapFile, Failure> {
     if let Some((scene, map)) = given(path) {

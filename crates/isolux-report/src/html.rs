@@ -6,6 +6,7 @@ use crate::words::Words;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use isolux::map::Verdict;
+use isolux::units::escape_markup as escape;
 
 const STYLE: &str = include_str!("report.css");
 
@@ -23,23 +24,6 @@ pub(crate) fn written(document: &Document) -> String {
         contents(document),
         escape(&document.foot),
     )
-}
-
-/// The text with characters that have a meaning of their own written otherwise.
-fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            // XML has no place for other control characters.
-            c if c.is_control() && !c.is_whitespace() => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }
 
 fn cover(cover: &Cover, words: &Words) -> String {
@@ -175,14 +159,4 @@ fn image(of: &Picture) -> String {
     };
     let data = STANDARD.encode(bytes);
     format!("<img alt=\"{}\" src=\"data:{media};base64,{data}\"/>", escape(&of.alternative))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_has_a_meaning_is_escaped() {
-        assert_eq!(escape("a<b & \"c\"\u{1}"), "a&lt;b &amp; &quot;c&quot;\u{fffd}");
-    }
 }

@@ -11,11 +11,11 @@ mod typst;
 mod words;
 
 pub use report::{
-    Area, Attachment, Budget, BudgetLine, Condition, Daylight, DaylightArea, Finding, Glare, Image,
-    Luminaire, LuminousBody, Maintenance, Observer, Project, Quantity, Report, Requirement, Scene,
-    Severity, Surface, UncertainInput, View,
+    Area, Attachment, Budget, BudgetLine, Daylight, DaylightArea, Finding, Glare, Image, Luminaire,
+    LuminousBody, Maintenance, Observer, Project, Report, Requirement, Scene, Severity, Surface,
+    UncertainInput, View,
 };
-pub use words::{Language, PlanWords};
+pub use words::Language;
 
 /// One file of HTML that needs nothing beside it; printed, it has pages.
 pub fn html(report: &Report, language: Language) -> String {

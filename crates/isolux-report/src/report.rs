@@ -1,6 +1,8 @@
 //! What a report is of: plain values, without words of a language.
 
 use isolux::map::{EnergyBalance, Figure, GridFigures, Provenance, Verdict};
+use isolux::scene::Condition;
+use serde::Serialize;
 
 /// All of it.
 #[derive(Clone, Debug)]
@@ -113,8 +115,12 @@ pub struct Area {
 }
 
 /// What the mean of a grid may be off by, at 95 %, in the manner of the GUM (JCGM 100).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Budget {
+    /// The grid.
+    pub grid: String,
+    /// The mean with the interval of its calculation, lx.
+    pub mean_lx: Figure,
     /// The mean with all inputs, lx.
     pub with_inputs_lx: Figure,
     /// Its lines.
@@ -122,7 +128,7 @@ pub struct Budget {
 }
 
 /// A line of a budget.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BudgetLine {
     /// Where it comes from.
     pub source: UncertainInput,
@@ -135,7 +141,8 @@ pub struct BudgetLine {
 }
 
 /// Where an uncertainty comes from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case", tag = "kind", content = "name")]
 pub enum UncertainInput {
     /// The calculation.
     Calculation,
@@ -145,7 +152,7 @@ pub enum UncertainInput {
     Maintenance,
     /// The reflectance of a material.
     Reflectance(String),
-    /// Those of all other materials.
+    /// Those of all other materials, each for itself.
     OtherReflectances,
 }
 
@@ -162,34 +169,6 @@ pub struct Requirement {
     pub verdict: Verdict,
     /// The probability that it holds.
     pub probability: f64,
-}
-
-/// A bound of a figure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Condition {
-    /// The figure.
-    pub quantity: Quantity,
-    /// Whether the bound is the least, else the most.
-    pub is_least: bool,
-    /// The bound, in the unit of the quantity.
-    pub bound: f64,
-}
-
-/// Figures that requirements are of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Mean illuminance, lx.
-    Mean,
-    /// Least illuminance, lx.
-    Least,
-    /// Greatest illuminance, lx.
-    Greatest,
-    /// Least over mean.
-    Uniformity,
-    /// Least over greatest.
-    Diversity,
-    /// The unified glare rating.
-    GlareRating,
 }
 
 /// Luminaires of one type.

@@ -1,10 +1,11 @@
 //! Reports as documents: well-formed, complete, with text that is nobody's markup.
 
 use isolux::map::{Figure, GridFigures, Verdict};
+use isolux::scene::{Condition, GridQuantity};
 use isolux_report::{
-    Area, Budget, BudgetLine, Condition, Daylight, DaylightArea, Finding, Glare, Image, Language,
-    Luminaire, LuminousBody, Maintenance, Observer, Project, Quantity, Report, Requirement, Scene,
-    Severity, Surface, UncertainInput, View, html, typst,
+    Area, Budget, BudgetLine, Daylight, DaylightArea, Finding, Glare, Image, Language, Luminaire,
+    LuminousBody, Maintenance, Observer, Project, Report, Requirement, Scene, Severity, Surface,
+    UncertainInput, View, html, typst,
 };
 
 const HOSTILE: &str = "a \"b\" <script>alert(1)</script> & #panic(\"x\") \\ $x$ \u{1}";
@@ -14,8 +15,8 @@ fn figure(value: f64, half: f64) -> Figure {
 }
 
 fn area() -> Area {
-    let requirement = |quantity, bound, figure: Figure| Requirement {
-        condition: Condition { quantity, is_least: true, bound },
+    let requirement = |of, bound, figure: Figure| Requirement {
+        condition: Condition { of, is_least: true, bound },
         source: Some("EN 12464-1:2021, 34.2, writing".into()),
         figure,
         verdict: figure.reaches(bound),
@@ -46,11 +47,13 @@ fn area() -> Area {
         error_lx: 3.0,
         outside: 2,
         requirements: vec![
-            requirement(Quantity::Mean, 500.0, figures.mean_lx),
-            requirement(Quantity::Uniformity, 0.6, figures.uniformity),
-            requirement(Quantity::Least, 400.0, figures.least_lx),
+            requirement(GridQuantity::Mean, 500.0, figures.mean_lx),
+            requirement(GridQuantity::Uniformity, 0.6, figures.uniformity),
+            requirement(GridQuantity::Least, 400.0, figures.least_lx),
         ],
         budget: Some(Budget {
+            grid: "desks".into(),
+            mean_lx: figures.mean_lx,
             with_inputs_lx: figure(512.3, 40.0),
             lines: vec![BudgetLine {
                 source: UncertainInput::Reflectance("walls".into()),

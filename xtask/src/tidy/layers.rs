@@ -20,7 +20,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("isolux-formats", &["isolux"]),
     ("isolux-compare", &["isolux"]),
     ("isolux-view", &["isolux"]),
-    ("isolux-report", &["isolux"]),
+    ("isolux-report", &["isolux", "isolux-view"]),
     ("isolux-memory", &[]),
     ("isolux-serve", &[]),
     ("isolux-cli", COMMAND),

@@ -2,7 +2,7 @@
 
 use super::place::{Jackknifed, PlaceYear, over_points, quantile};
 use super::year::Year;
-use crate::interval::{Interval, Verdict};
+use isolux::map::{Figure, Verdict};
 use serde::Serialize;
 
 /// Quantile of Student's distribution with fifteen degrees of freedom, for 95 %: of sixteen replicates.
@@ -27,24 +27,24 @@ const LEVELS_LX: [(&str, [f64; 2]); 3] =
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct GridYear {
     /// Daylight factor: mean over points, median, and what 95 % of the points exceed.
-    pub(crate) daylight_factor_mean: Interval,
-    pub(crate) daylight_factor_median: Interval,
-    pub(crate) daylight_factor_95: Interval,
+    pub(crate) daylight_factor_mean: Figure,
+    pub(crate) daylight_factor_median: Figure,
+    pub(crate) daylight_factor_95: Figure,
     /// The part of its mean that comes straight from the sky.
-    pub(crate) sky_component_mean: Interval,
+    pub(crate) sky_component_mean: Figure,
     /// Daylight factors with which this place has 300 lx (and 100 lx) of diffuse light for half of the hours of daylight.
     pub(crate) target_daylight_factor: Option<[f64; 2]>,
     /// Illuminance of half of the hours of daylight: what half of the points exceed, and what 95 % exceed, lx.
-    pub(crate) target_lx: Interval,
-    pub(crate) minimum_target_lx: Interval,
+    pub(crate) target_lx: Figure,
+    pub(crate) minimum_target_lx: Figure,
     /// Mean share of the hours of use with 300 lx.
-    pub(crate) daylight_autonomy: Interval,
+    pub(crate) daylight_autonomy: Figure,
     /// Share of points with 300 lx in half of the hours of use.
-    pub(crate) spatial_daylight_autonomy: Interval,
+    pub(crate) spatial_daylight_autonomy: Figure,
     /// Share of points with more than 1000 lx of direct sun in more than 250 hours of use.
     pub(crate) annual_sunlight_exposure: f64,
     /// Mean shares of the hours of use below 100 lx, to 300, to 3000, and above.
-    pub(crate) useful_daylight: [Interval; 4],
+    pub(crate) useful_daylight: [Figure; 4],
     /// Whether levels of EN 17037 are met: minimum, medium, high.
     pub(crate) en_17037: [Verdict; 3],
     pub(crate) sda_accepted: Verdict,
@@ -53,16 +53,16 @@ pub(crate) struct GridYear {
 }
 
 /// A figure with its interval.
-pub(super) fn interval(figure: &Jackknifed) -> Interval {
+pub(super) fn interval(figure: &Jackknifed) -> Figure {
     let half = STUDENT * figure.standard_error();
     let value = figure.value;
-    Interval { value, low: (value - half).max(0.0), high: value + half }
+    Figure { value, low: (value - half).max(0.0), high: value + half }
 }
 
 /// The same, of a share: at most one.
-fn share(figure: &Jackknifed) -> Interval {
+fn share(figure: &Jackknifed) -> Figure {
     let of = interval(figure);
-    Interval { high: of.high.min(1.0), ..of }
+    Figure { high: of.high.min(1.0), ..of }
 }
 
 impl GridYear {
@@ -113,7 +113,7 @@ impl GridYear {
 }
 
 /// The share of points that reach half of the hours, from those that surely do to those that may.
-fn sda(points: &[PlaceYear]) -> Interval {
+fn sda(points: &[PlaceYear]) -> Figure {
     let share = |deviations: f64| {
         let reaches = |p: &&PlaceYear| {
             let half = STUDENT * p.autonomy.standard_error();
@@ -121,7 +121,7 @@ fn sda(points: &[PlaceYear]) -> Interval {
         };
         points.iter().filter(reaches).count() as f64 / points.len() as f64
     };
-    Interval { value: share(0.0), low: share(-1.0), high: share(1.0) }
+    Figure { value: share(0.0), low: share(-1.0), high: share(1.0) }
 }
 
 /// EN 17037:2018, annex A: target illuminances over the median diffuse illuminance of open ground; `None` where that is nothing.
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn verdicts_need_the_whole_interval() {
-        let of = |low: f64, high: f64| Interval { value: 0.5 * (low + high), low, high };
+        let of = |low: f64, high: f64| Figure { value: 0.5 * (low + high), low, high };
         assert_eq!(of(300.0, 310.0).reaches(300.0), Verdict::Met);
         assert_eq!(of(290.0, 310.0).reaches(300.0), Verdict::Undecided);
         assert_eq!(of(280.0, 299.0).reaches(300.0), Verdict::NotMet);

@@ -8,7 +8,7 @@ mod year;
 
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
-use crate::flags::DaylightFlags;
+use crate::flags::{DaylightFlags, YearFlags};
 use crate::grid::choice;
 use crate::meter::Meter;
 use crate::notes::{Note, note};
@@ -35,73 +35,57 @@ const HOURS: usize = 8760;
 /// Points between two looks at how far it is.
 const TOGETHER: usize = 16;
 
-/// Which year is asked for, and how well.
-pub(crate) struct YearAsked<'a> {
-    /// A year of weather.
-    pub(crate) weather: &'a Path,
-    /// Hours of use of every day, from and to.
-    pub(crate) hours: (u32, u32),
-    pub(crate) ground_reflectance: f64,
-    /// Paths from every point.
-    pub(crate) paths: u32,
-    pub(crate) seed: u64,
-}
+/// Which year is asked for: of weather, and how.
+pub(crate) type YearAsked<'a> = (&'a Path, &'a YearFlags);
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &DaylightFlags, json: bool) -> Result<Outcome, Failure> {
     let csv = flags.csv.as_deref().map(|path| OutputPath::check(path, "csv")).transpose()?;
-    let asked = YearAsked {
-        weather: &flags.weather,
-        hours: flags.hours,
-        ground_reflectance: flags.ground_reflectance,
-        paths: flags.paths,
-        seed: flags.seed,
-    };
     let scene = source::read_scene(&flags.source)?;
     let grids = choice::chosen(&flags.grid, &flags.source, &scene)?;
-    let (place, found) = of_scene(&asked, &scene, grids)?;
+    let (place, found) = of_scene((&flags.weather, &flags.year), &scene, grids)?;
     if let Some(csv) = csv {
         csv.write(words::rows(&found).as_bytes())?;
     }
     if json {
-        print_json(&words::Report::of(&found, &place, flags.hours))?;
+        print_json(&words::Report::of(&found, &place, flags.year.hours))?;
     } else {
-        print(&words::text(&found, &place, flags.hours))?;
+        print(&words::text(&found, &place, flags.year.hours))?;
     }
     Ok(Outcome::Done)
 }
 
 /// The place of the weather file, and its year on the grids of a scene, whose own light is off.
 pub(crate) fn of_scene(
-    asked: &YearAsked<'_>,
+    (file, flags): YearAsked<'_>,
     scene: &Scene,
     grids: Vec<CalculationGrid>,
 ) -> Result<(String, Vec<Found>), Failure> {
     // What it lacks of a year is refused here.
-    let weather = epw::read(asked.weather).map_err(bad_file)?.value;
+    let weather = epw::read(file).map_err(bad_file)?.value;
     if weather.hours.len() < HOURS {
         let what = format!("has {} hours, where a year has {HOURS}", weather.hours.len());
-        return Err(wrong_weather(asked, &what));
+        return Err(wrong_weather(file, &what));
     }
-    let days = weather.daylight().map_err(|what| wrong_weather(asked, &what))?;
+    let days = weather.daylight().map_err(|what| wrong_weather(file, &what))?;
     if days.unknown > 0 {
         let what =
             format!("{} hours of daylight have no irradiance and are left out", days.unknown);
-        note(Note::Warning, format!("{}: {what}", asked.weather.display()));
+        note(Note::Warning, format!("{}: {what}", file.display()));
     }
-    let year = Year::of(&days, &weather.hours, asked.hours, asked.ground_reflectance);
+    let year = Year::of(&days, &weather.hours, flags.hours, flags.ground_reflectance);
     if year.used_h == 0.0 || year.hours.is_empty() {
-        return Err(wrong_weather(asked, "it has no daylight in the hours of use"));
+        return Err(wrong_weather(file, "it has no daylight in the hours of use"));
     }
     let scene = below_a_sky(scene);
     let daylight = Daylight::new(&scene).expect("a sky was put in");
-    let found = grids.into_iter().map(|grid| found(asked, &daylight, grid, &year));
+    let found = grids.into_iter().map(|grid| found(flags, &daylight, grid, &year));
     let found = found.collect::<Result<_, _>>();
     found.map(|found| (weather.place.name, found))
 }
 
-fn wrong_weather(asked: &YearAsked<'_>, what: &str) -> Failure {
-    Failure::bad_input(format!("{}: {what}; take a file of a whole year", asked.weather.display()))
+fn wrong_weather(file: &Path, what: &str) -> Failure {
+    Failure::bad_input(format!("{}: {what}; take a file of a whole year", file.display()))
 }
 
 /// The scene with a sky and nothing else that shines. North is where its own sky has it, else +y, or -z where y is up.
@@ -118,15 +102,15 @@ fn below_a_sky(scene: &Scene) -> Scene {
 }
 
 fn found(
-    asked: &YearAsked<'_>,
+    flags: &YearFlags,
     daylight: &Daylight<'_>,
     grid: CalculationGrid,
     year: &Year,
 ) -> Result<Found, Failure> {
     let settings = ExactSettings {
-        rays: asked.paths.div_ceil(REPLICATES),
+        rays: flags.paths.div_ceil(REPLICATES),
         replicates: REPLICATES,
-        seed: asked.seed,
+        seed: flags.seed,
     };
     let no_points = || Failure::bad_input(format!("grid `{}` has no points", grid.name));
     let normal = grid.normal().ok_or_else(no_points)?;

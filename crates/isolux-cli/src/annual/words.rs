@@ -4,9 +4,9 @@ use super::figures::{GridYear, interval};
 use super::found::Found;
 use super::place::PlaceYear;
 use crate::console::facts;
-use crate::interval::Interval;
 use crate::shown::name;
 use isolux::geometry::Point;
+use isolux::map::Figure;
 use isolux::units::to_error;
 use serde::Serialize;
 use std::fmt::Write;
@@ -71,17 +71,17 @@ fn list(found: &Found, place: &str, (from, to): (u32, u32)) -> String {
 }
 
 /// A share in per cent with its interval.
-fn percent(of: Interval) -> String {
-    let scaled = Interval { value: 100.0 * of.value, low: 100.0 * of.low, high: 100.0 * of.high };
+fn percent(of: Figure) -> String {
+    let scaled = Figure { value: 100.0 * of.value, low: 100.0 * of.low, high: 100.0 * of.high };
     format!("{} %", to_half(scaled, LEAST_PERCENT))
 }
 
-fn lux(of: Interval) -> String {
+fn lux(of: Figure) -> String {
     to_half(of, LEAST_LX)
 }
 
 /// A figure in digits of half of its interval, and of no less than this.
-fn to_half(of: Interval, least: f64) -> String {
+fn to_half(of: Figure, least: f64) -> String {
     let half = (0.5 * (of.high - of.low)).max(least);
     let [value, low, high] = [of.value, of.low, of.high].map(|n| to_error(n, half));
     if low == value && high == value { value } else { format!("{value} ({low} to {high})") }
@@ -108,10 +108,10 @@ struct GridReport<'a> {
 #[derive(Serialize)]
 struct PointReport {
     position: [f64; 3],
-    daylight_factor: Interval,
-    sky_component: Interval,
-    daylight_autonomy: Interval,
-    median_lx: Interval,
+    daylight_factor: Figure,
+    sky_component: Figure,
+    daylight_autonomy: Figure,
+    median_lx: Figure,
     useful_daylight: [f64; 4],
     sunny_h: f64,
 }

@@ -7,54 +7,17 @@ use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{BudgetFlags, InputFlags};
 use crate::grid::choice;
-use crate::interval::Interval;
 use crate::quantity::{show_share, significant};
 use crate::shown::name;
 use crate::{map_file, source};
+use isolux::map::Figure;
 use isolux::scene::{CalculationGrid, Scene};
 use isolux::units::to_error;
-use serde::Serialize;
+use isolux_report::{Budget, BudgetLine, UncertainInput};
 use traced::Traced;
 
 /// Lines of materials; the others are one line together.
 const MOST_MATERIALS: usize = 6;
-
-/// A line of a budget.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub(crate) struct Line {
-    pub(crate) source: Source,
-    /// What the input may be off by, relative, at 95 %; none of the calculation.
-    pub(crate) input: Option<f64>,
-    /// What the mean may be off by for it, lx, at 95 %.
-    pub(crate) half_lx: f64,
-    /// Its share of the variance of all.
-    pub(crate) share: f64,
-}
-
-/// Where an uncertainty comes from.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case", tag = "kind", content = "name")]
-pub(crate) enum Source {
-    Calculation,
-    /// Of the luminaires of a group; without a name those of the scene.
-    Flux(Option<String>),
-    Maintenance,
-    /// Of a material.
-    Reflectance(String),
-    /// Of all other materials, each for itself.
-    OtherReflectances,
-}
-
-/// What the mean of a grid may be off by.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub(crate) struct Budget {
-    pub(crate) grid: String,
-    /// The mean with the interval of its calculation, lx.
-    pub(crate) mean_lx: Interval,
-    /// The same with all lines.
-    pub(crate) with_inputs_lx: Interval,
-    pub(crate) lines: Vec<Line>,
-}
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &BudgetFlags, json: bool) -> Result<Outcome, Failure> {
@@ -75,7 +38,7 @@ pub(crate) fn run(flags: &BudgetFlags, json: bool) -> Result<Outcome, Failure> {
     if json {
         print_json(&serde_json::json!({ "confidence": 0.95, "grids": budgets }))?;
     } else {
-        let texts: Vec<String> = budgets.iter().map(Budget::text).collect();
+        let texts: Vec<String> = budgets.iter().map(text).collect();
         print(&texts.join("\n"))?;
     }
     Ok(Outcome::Done)
@@ -86,25 +49,25 @@ pub(crate) fn of(
     scene: &Scene,
     grid: &CalculationGrid,
     inputs: &InputFlags,
-    known_lx: Option<Interval>,
+    known_lx: Option<Figure>,
 ) -> Result<Budget, Failure> {
     let traced = Traced::of(scene, grid)?;
     let mean_lx = known_lx.unwrap_or(traced.mean_lx);
-    let mut lines = vec![(Source::Calculation, None, mean_lx.half_width())];
+    let mut lines = vec![(UncertainInput::Calculation, None, mean_lx.half_width())];
     if let Some(share) = inputs.flux {
         let of_group = |(group, lx): &(Option<String>, f64)| {
-            (Source::Flux(group.clone()), Some(share), share * lx)
+            (UncertainInput::Flux(group.as_deref().map(name)), Some(share), share * lx)
         };
         lines.extend(traced.by_group_lx.iter().map(of_group));
     }
     if let Some(share) = inputs.maintenance {
-        lines.push((Source::Maintenance, Some(share), share * mean_lx.value));
+        lines.push((UncertainInput::Maintenance, Some(share), share * mean_lx.value));
     }
     if let Some(share) = inputs.reflectance {
         lines.extend(reflectances(&traced, share));
     }
     let variance: f64 = lines.iter().map(|(.., half_lx)| half_lx * half_lx).sum();
-    let line = |(source, input, half_lx): (Source, Option<f64>, f64)| Line {
+    let line = |(source, input, half_lx): (UncertainInput, Option<f64>, f64)| BudgetLine {
         source,
         input,
         half_lx,
@@ -112,9 +75,9 @@ pub(crate) fn of(
     };
     let half_lx = variance.sqrt();
     Ok(Budget {
-        grid: grid.name.clone(),
+        grid: name(&grid.name),
         mean_lx,
-        with_inputs_lx: Interval {
+        with_inputs_lx: Figure {
             value: mean_lx.value,
             low: (mean_lx.value - half_lx).max(0.0),
             high: mean_lx.value + half_lx,
@@ -124,57 +87,54 @@ pub(crate) fn of(
 }
 
 /// A line for each material that matters most, and one for the rest.
-fn reflectances(traced: &Traced, share: f64) -> Vec<(Source, Option<f64>, f64)> {
+fn reflectances(traced: &Traced, share: f64) -> Vec<(UncertainInput, Option<f64>, f64)> {
     let mut all: Vec<(&String, f64)> =
         traced.by_material_lx.iter().map(|(material, lx)| (material, share * lx)).collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
     let rest = all.split_off(all.len().min(MOST_MATERIALS));
     let of = |(material, half_lx): (&String, f64)| {
-        (Source::Reflectance(material.clone()), Some(share), half_lx)
+        (UncertainInput::Reflectance(name(material)), Some(share), half_lx)
     };
     let mut lines: Vec<_> = all.into_iter().map(of).collect();
     if !rest.is_empty() {
         let squares: f64 = rest.iter().map(|(_, half_lx)| half_lx * half_lx).sum();
-        lines.push((Source::OtherReflectances, Some(share), squares.sqrt()));
+        lines.push((UncertainInput::OtherReflectances, Some(share), squares.sqrt()));
     }
     lines
 }
 
-impl Source {
-    fn text(&self) -> String {
-        match self {
-            Self::Calculation => "calculation".to_owned(),
-            Self::Flux(None) => "luminous flux".to_owned(),
-            Self::Flux(Some(group)) => format!("luminous flux of {}", name(group)),
-            Self::Maintenance => "maintenance factor".to_owned(),
-            Self::Reflectance(material) => format!("reflectance of {}", name(material)),
-            Self::OtherReflectances => "reflectances of all others".to_owned(),
-        }
+fn source(of: &UncertainInput) -> String {
+    match of {
+        UncertainInput::Calculation => "calculation".to_owned(),
+        UncertainInput::Flux(None) => "luminous flux".to_owned(),
+        UncertainInput::Flux(Some(group)) => format!("luminous flux of {}", group),
+        UncertainInput::Maintenance => "maintenance factor".to_owned(),
+        UncertainInput::Reflectance(material) => format!("reflectance of {}", material),
+        UncertainInput::OtherReflectances => "reflectances of all others".to_owned(),
     }
 }
 
-impl Budget {
-    fn text(&self) -> String {
-        let row = |line: &Line| {
-            vec![
-                line.source.text(),
-                line.input.map_or("-".to_owned(), show_share),
-                significant(line.half_lx, 2),
-                format!("{:.0} %", 100.0 * line.share),
-            ]
-        };
-        let rows: Vec<Vec<String>> = self.lines.iter().map(row).collect();
-        let lines = table(&["source", "input, ±", "Em, ± lx", "of the variance"], &rows);
-        let written = |of: Interval| {
-            let half = of.half_width().max(0.5);
-            let [value, low, high] = [of.value, of.low, of.high].map(|lx| to_error(lx, half));
-            format!("{value} lx ({low} to {high})")
-        };
-        format!(
-            "{}: Em {} by the calculation, {} with all inputs, at 95 %\n{lines}",
-            name(&self.grid),
-            written(self.mean_lx),
-            written(self.with_inputs_lx)
-        )
-    }
+/// For people.
+fn text(budget: &Budget) -> String {
+    let row = |line: &BudgetLine| {
+        vec![
+            source(&line.source),
+            line.input.map_or("-".to_owned(), show_share),
+            significant(line.half_lx, 2),
+            format!("{:.0} %", 100.0 * line.share),
+        ]
+    };
+    let rows: Vec<Vec<String>> = budget.lines.iter().map(row).collect();
+    let lines = table(&["source", "input, ±", "Em, ± lx", "of the variance"], &rows);
+    let written = |of: Figure| {
+        let half = of.half_width().max(0.5);
+        let [value, low, high] = [of.value, of.low, of.high].map(|lx| to_error(lx, half));
+        format!("{value} lx ({low} to {high})")
+    };
+    format!(
+        "{}: Em {} by the calculation, {} with all inputs, at 95 %\n{lines}",
+        budget.grid,
+        written(budget.mean_lx),
+        written(budget.with_inputs_lx)
+    )
 }

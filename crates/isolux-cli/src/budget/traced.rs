@@ -1,11 +1,10 @@
 //! How the mean of a grid depends on what it is computed from, by paths.
 
 use crate::failure::Failure;
-use crate::interval::Interval;
 use crate::meter::Meter;
 use crate::shown::name;
 use isolux::engine::{ExactSettings, PathTracer, ProbePoint, Sensitivity};
-use isolux::map::NORMAL_95;
+use isolux::map::{Figure, NORMAL_95};
 use isolux::scene::{CalculationGrid, Scene};
 use rayon::prelude::*;
 
@@ -19,7 +18,7 @@ const TOGETHER: usize = 16;
 
 /// The mean of a grid, maintained, and what it depends on, lx.
 pub(super) struct Traced {
-    pub(super) mean_lx: Interval,
+    pub(super) mean_lx: Figure,
     /// Its part from each group of luminaires; one without a name where the scene has no groups.
     pub(super) by_group_lx: Vec<(Option<String>, f64)>,
     /// Its change for a relative change of the reflectance of each material, of the whole of it.
@@ -37,7 +36,7 @@ impl Traced {
         let mean_lx = mean(&all.illuminance_lx);
         let half_lx = NORMAL_95 * standard_error(&all.illuminance_lx);
         Ok(Self {
-            mean_lx: Interval { value: mean_lx, low: mean_lx - half_lx, high: mean_lx + half_lx },
+            mean_lx: Figure { value: mean_lx, low: mean_lx - half_lx, high: mean_lx + half_lx },
             by_group_lx: by_group(scene, grid, mean_lx)?,
             by_material_lx: by_material.filter(|(_, lx)| *lx > 0.0).collect(),
         })

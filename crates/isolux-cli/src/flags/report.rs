@@ -1,6 +1,7 @@
 //! Arguments of `isolux report`.
 
 use super::budget::InputFlags;
+use super::daylight::YearFlags;
 use super::grid_choice::GridChoice;
 use super::solve::FURTHER_HELP;
 use crate::quantity;
@@ -60,6 +61,9 @@ pub(crate) struct ReportFlags {
     pub require: Vec<String>,
     #[command(flatten)]
     pub inputs: InputFlags,
+    /// Add a year of daylight, by this year of weather (EnergyPlus)
+    #[arg(long, value_name = "FILE.epw")]
+    pub weather: Option<PathBuf>,
     #[command(flatten)]
     pub year: YearFlags,
 }
@@ -71,24 +75,4 @@ pub(crate) enum LanguageName {
     En,
     /// German
     De,
-}
-
-/// A year of daylight.
-#[derive(Debug, Args)]
-pub(crate) struct YearFlags {
-    /// Add a year of daylight, by this year of weather (EnergyPlus)
-    #[arg(long, value_name = "FILE.epw")]
-    pub weather: Option<PathBuf>,
-    /// Hours of use of every day by standard time, from and to
-    #[arg(long, value_name = "FROM..TO", value_parser = quantity::hours_of_day, default_value = "8..18", requires = "weather")]
-    pub hours: (u32, u32),
-    /// Reflectance of the ground beyond the scene in the hours of the year
-    #[arg(long, value_name = "SHARE", value_parser = quantity::reflectance, default_value = "0.2", allow_hyphen_values = true, requires = "weather")]
-    pub ground_reflectance: f64,
-    /// Paths of daylight from every point; more make intervals narrower
-    #[arg(long, value_name = "N", default_value_t = 16_384, value_parser = clap::value_parser!(u32).range(256..=16_777_216), requires = "weather")]
-    pub paths: u32,
-    /// Seed of random numbers of daylight
-    #[arg(long, default_value_t = 1, requires = "weather")]
-    pub seed: u64,
 }

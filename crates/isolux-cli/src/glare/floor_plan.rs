@@ -5,12 +5,12 @@ use crate::console::table;
 use crate::failure::Failure;
 use crate::flags::{GlareFlags, GridChoice};
 use crate::grid::choice::chosen;
-use crate::interval::Interval;
 use crate::notes::{Note, note};
 use crate::quantity::show_share;
 use crate::shown::name;
 use isolux::engine::MapReader;
 use isolux::geometry::{Direction, Point, Ray, Vector};
+use isolux::map::Figure;
 use isolux::scene::{CalculationGrid, Camera, Scene};
 use isolux_formats::counted;
 use rayon::prelude::*;
@@ -53,7 +53,7 @@ pub(super) struct Rated {
     unknown: usize,
     limit: f64,
     /// Of the known points, those that keep the limit whichever way one looks.
-    share_within_limit: Option<Interval>,
+    share_within_limit: Option<Figure>,
     /// The worst view; `None` where no source is seen from anywhere.
     worst: Option<Observed>,
     #[serde(skip)]
@@ -179,7 +179,7 @@ fn floor_below_one(scene: &Scene, point: Point, up: Direction) -> Option<f64> {
 pub(crate) fn worst(
     (scene, reader): (&Scene, &MapReader),
     grid: &CalculationGrid,
-) -> Result<Interval, Failure> {
+) -> Result<Figure, Failure> {
     let eyes = Eyes::of(grid, (SEATED_M, &[]), scene)?;
     let rated = Rated::of(&eyes, 0.0, (scene, reader));
     let own = name(&grid.name);
@@ -194,7 +194,7 @@ pub(crate) fn worst(
             "UGR on grid `{own}`: nothing is known at the height of eyes; put it into a lit room"
         )));
     }
-    Ok(rated.worst.and_then(|of| of.ugr).unwrap_or(Interval::exact(NO_GLARE)))
+    Ok(rated.worst.and_then(|of| of.ugr).unwrap_or(Figure::exact(NO_GLARE)))
 }
 
 /// Looks from all points all ways.
@@ -242,7 +242,7 @@ impl Rated {
                 continue;
             };
             known += 1;
-            let keeps = |end: fn(&Interval) -> f64| {
+            let keeps = |end: fn(&Figure) -> f64| {
                 let keeps =
                     |of: &&Observed| of.ugr.as_ref().is_none_or(|ugr| end(ugr) <= self.limit);
                 u32::from(all.iter().all(keeps))
@@ -252,7 +252,7 @@ impl Rated {
             maybe += keeps(|ugr| ugr.low);
         }
         let share = |count: u32| f64::from(count) / f64::from(known);
-        self.share_within_limit = (known > 0).then(|| Interval {
+        self.share_within_limit = (known > 0).then(|| Figure {
             value: share(likely),
             low: share(surely),
             high: share(maybe),
@@ -298,11 +298,10 @@ pub(super) fn text(rated: &[Rated]) -> String {
         let triple =
             |v: [f64; 3]| v.map(|x| format!("{}", (x * 100.0).round() / 100.0 + 0.0)).join(",");
         let worst = of.worst.as_ref();
-        let share =
-            of.share_within_limit.map_or("-".to_owned(), |Interval { value, low, high }| {
-                let [value, low, high] = [value, low, high].map(show_share);
-                if low == high { value } else { format!("{value} ({low} to {high})") }
-            });
+        let share = of.share_within_limit.map_or("-".to_owned(), |Figure { value, low, high }| {
+            let [value, low, high] = [value, low, high].map(show_share);
+            if low == high { value } else { format!("{value} ({low} to {high})") }
+        });
         vec![
             name(&of.grid),
             (of.points - of.unknown).to_string(),
@@ -325,7 +324,7 @@ pub(super) fn rows(rated: &[Rated]) -> String {
         let name = format!("\"{}\"", grid.replace('"', "\"\""));
         for of in views.iter().flatten() {
             let ([x, y, z], [dx, dy, dz]) = (of.position, of.direction);
-            let ugr = of.ugr.map_or(String::from(",,"), |Interval { value, low, high }| {
+            let ugr = of.ugr.map_or(String::from(",,"), |Figure { value, low, high }| {
                 format!("{value:.3},{low:.3},{high:.3}")
             });
             let (background, sources) = (of.background_cd_m2, of.sources_in_view);

@@ -9,13 +9,12 @@ mod sources;
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{GlareFlags, GlareMetric};
-use crate::interval::Interval;
 use crate::map_file;
 use crate::output::OutputPath;
 use crate::shown::name;
 pub(crate) use floor_plan::worst;
 use isolux::engine::MapReader;
-use isolux::map::IlluminationMap;
+use isolux::map::{Figure, IlluminationMap};
 use isolux::scene::{Camera, Scene};
 use observer::Observed;
 
@@ -75,7 +74,7 @@ pub(crate) fn rated(
     scene: &Scene,
     reader: &MapReader<'_>,
     eye: &Camera,
-) -> Option<(Option<Interval>, f64)> {
+) -> Option<(Option<Figure>, f64)> {
     observer::observed(scene, reader, eye).map(|of| (of.ugr, of.background_cd_m2))
 }
 

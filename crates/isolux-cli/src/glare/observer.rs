@@ -3,14 +3,13 @@
 use super::sources::{Shining, shining};
 use crate::failure::Failure;
 use crate::flags::GlareFlags;
-use crate::interval::Interval;
 use crate::notes::{Note, note};
 use crate::quantity::significant;
 use crate::shown::name;
 use crate::viewpoint;
 use isolux::engine::{MapReader, ProbePoint};
 use isolux::geometry::{Point, Vector};
-use isolux::map::NORMAL_95;
+use isolux::map::{Figure, NORMAL_95};
 use isolux::scene::{Camera, Scene};
 use isolux::units::to_error;
 use serde::Serialize;
@@ -26,7 +25,7 @@ pub(super) struct Observed {
     pub(super) position: [f64; 3],
     pub(super) direction: [f64; 3],
     /// `None` without a source in view, or where nothing is known of the background.
-    pub(super) ugr: Option<Interval>,
+    pub(super) ugr: Option<Figure>,
     pub(super) background_cd_m2: f64,
     indirect_at_eye_lx: f64,
     pub(super) sources_in_view: usize,
@@ -103,22 +102,22 @@ pub(super) fn warn(of: &Observed) {
 }
 
 /// CIE 117:1995: `8 lg (0.25 / Lb sum L^2 omega / p^2)`, Lb the indirect illuminance at the eye over pi.
-fn rating(shining: &Shining, indirect_lx: f64, error_lx: f64) -> Option<Interval> {
+fn rating(shining: &Shining, indirect_lx: f64, error_lx: f64) -> Option<Figure> {
     if shining.sum <= 0.0 || indirect_lx <= 0.0 || !error_lx.is_finite() {
         return None;
     }
     let value = 8.0 * libm::log10(0.25 * PI / indirect_lx * shining.sum);
     let relative = libm::hypot(error_lx / indirect_lx, shining.error / shining.sum);
     let half = NORMAL_95 * 8.0 / LN_10 * relative;
-    Some(Interval { value, low: value - half, high: value + half })
+    Some(Figure { value, low: value - half, high: value + half })
 }
 
 /// A rating as it is printed.
-pub(super) fn written(ugr: Option<Interval>) -> String {
+pub(super) fn written(ugr: Option<Figure>) -> String {
     match ugr {
         None => "-".to_owned(),
         Some(ugr) if ugr.high < NO_GLARE => "below 10".to_owned(),
-        Some(Interval { value, low, high }) => {
+        Some(Figure { value, low, high }) => {
             let written = |ugr: f64| to_error(ugr, (0.5 * (high - low)).max(0.05));
             format!("{} ({} to {})", written(value), written(low), written(high))
         }

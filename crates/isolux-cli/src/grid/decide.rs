@@ -2,10 +2,9 @@
 
 use super::requirement::{Judged, are_there};
 use crate::failure::{Failure, Outcome};
-use crate::interval::Verdict;
 use crate::solving;
 use isolux::engine::SolveRequest;
-use isolux::map::IlluminationMap;
+use isolux::map::{IlluminationMap, Verdict};
 use isolux::scene::{CalculationGrid, Scene};
 use std::path::Path;
 

@@ -6,12 +6,11 @@ use super::choice;
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{EmergencyName, GridFlags};
-use crate::interval::{Interval, Verdict};
 use crate::maintained::{self, Maintained};
 use crate::probe;
 use crate::shown::name;
 use isolux::engine::{ExactSettings, ProbePoint};
-use isolux::map::{Figure, GridFigures};
+use isolux::map::{Figure, GridFigures, Verdict};
 use isolux::scene::{CalculationGrid, Scene};
 use isolux::units::to_error;
 use points::{OUTER_M, Strip};
@@ -38,7 +37,7 @@ struct Judged {
     grid: String,
     condition: String,
     #[serde(flatten)]
-    figure: Interval,
+    figure: Figure,
     verdict: Verdict,
 }
 
@@ -104,18 +103,16 @@ fn on_grid(
 ) -> Result<Vec<Judged>, Failure> {
     let read = |points: &[ProbePoint]| figures((lit, flags), &grid, points);
     let of =
-        |condition: &str, figure: Figure, verdict: fn(Interval, f64) -> Verdict, bound: f64| {
-            Judged {
-                grid: grid.name.clone(),
-                condition: condition.to_owned(),
-                figure,
-                verdict: verdict(figure, bound),
-            }
+        |condition: &str, figure: Figure, verdict: fn(Figure, f64) -> Verdict, bound: f64| Judged {
+            grid: grid.name.clone(),
+            condition: condition.to_owned(),
+            figure,
+            verdict: verdict(figure, bound),
         };
-    let least = |condition: &str, figure, bound| of(condition, figure, Interval::reaches, bound);
+    let least = |condition: &str, figure, bound| of(condition, figure, Figure::reaches, bound);
     let spread = |where_is: &str, found: &GridFigures| {
         let condition = format!("Emax/Emin <= 40 {where_is}");
-        of(&condition, inverse(found.diversity), Interval::keeps_within, MOST_DIVERSITY)
+        of(&condition, inverse(found.diversity), Figure::keeps_within, MOST_DIVERSITY)
     };
     Ok(match kind {
         EmergencyName::EscapeRoute => {
@@ -166,7 +163,7 @@ fn inverse(Figure { value, low, high }: Figure) -> Figure {
 
 fn text(judged: &[Judged]) -> String {
     let row = |of: &Judged| {
-        let Interval { value, low, high } = of.figure;
+        let Figure { value, low, high } = of.figure;
         let written = |number: f64| match number.is_finite() {
             true => to_error(number, 0.5 * (high - low)),
             false => "dark".to_owned(),

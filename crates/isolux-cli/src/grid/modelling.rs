@@ -1,8 +1,7 @@
 //! Modelling: cylindrical over horizontal illuminance at the same point (EN 12464-1:2021, 4.6).
 
 use crate::grid_values::GridValues;
-use crate::interval::Interval;
-use isolux::map::{Illuminance, NORMAL_95};
+use isolux::map::{Figure, Illuminance, NORMAL_95};
 use isolux::units::to_error;
 use serde::Serialize;
 
@@ -13,9 +12,9 @@ const GOOD: [f64; 2] = [0.3, 0.6];
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Modelling {
     /// Over all points that have it. Intervals are as wide as if all points erred together.
-    pub(super) mean: Option<Interval>,
-    pub(super) least: Option<Interval>,
-    pub(super) greatest: Option<Interval>,
+    pub(super) mean: Option<Figure>,
+    pub(super) least: Option<Figure>,
+    pub(super) greatest: Option<Figure>,
     pub(super) values: Vec<Point>,
 }
 
@@ -35,12 +34,12 @@ impl Modelling {
     }
 
     fn over(values: Vec<Point>) -> Self {
-        let known: Vec<Interval> = values.iter().filter_map(Point::interval).collect();
+        let known: Vec<Figure> = values.iter().filter_map(Point::interval).collect();
         let over = |of: &dyn Fn(&mut dyn Iterator<Item = f64>) -> Option<f64>| {
             let [value, low, high] =
-                [|of: &Interval| of.value, |of: &Interval| of.low, |of: &Interval| of.high]
-                    .map(|end: fn(&Interval) -> f64| of(&mut known.iter().map(end)));
-            Some(Interval { value: value?, low: low?, high: high? })
+                [|of: &Figure| of.value, |of: &Figure| of.low, |of: &Figure| of.high]
+                    .map(|end: fn(&Figure) -> f64| of(&mut known.iter().map(end)));
+            Some(Figure { value: value?, low: low?, high: high? })
         };
         let count = known.len() as f64;
         let mean = over(&|all| Some(all.sum::<f64>() / count));
@@ -54,7 +53,7 @@ impl Modelling {
 
     /// The words for it.
     pub(super) fn text(&self) -> String {
-        let written = |of: Option<Interval>| of.map_or_else(|| "-".to_owned(), with_ends);
+        let written = |of: Option<Figure>| of.map_or_else(|| "-".to_owned(), with_ends);
         let [mean, least, greatest] = [self.mean, self.least, self.greatest].map(written);
         format!("modelling Ez/Eh {mean}, least {least}, greatest {greatest}")
     }
@@ -81,14 +80,14 @@ impl Point {
         Self { modelling, standard_error, horizontal_lx }
     }
 
-    fn interval(&self) -> Option<Interval> {
+    fn interval(&self) -> Option<Figure> {
         let (value, error) = self.modelling.zip(self.standard_error)?;
         let half = NORMAL_95 * error;
-        Some(Interval { value, low: (value - half).max(0.0), high: value + half })
+        Some(Figure { value, low: (value - half).max(0.0), high: value + half })
     }
 }
 
-fn with_ends(Interval { value, low, high }: Interval) -> String {
+fn with_ends(Figure { value, low, high }: Figure) -> String {
     // Two digits behind the point, as the standard writes its range.
     let written = |number: f64| to_error(number, (0.5 * (high - low)).max(0.02));
     let [value, low, high] = [value, low, high].map(written);

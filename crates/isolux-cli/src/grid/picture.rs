@@ -11,6 +11,7 @@ use crate::quantity::significant;
 use crate::render;
 use crate::shown::name;
 use isolux::geometry::{Point, Ray};
+use isolux::map::Illuminance;
 use isolux::scene::{Scene, UpAxis};
 use isolux::units::to_error;
 use isolux_formats::counted;
@@ -26,7 +27,7 @@ pub(super) fn write(
     let grid = &result.read.grid;
     let points: Vec<PlanPoint> = match &result.modelling {
         Some(modelling) => modelling.values.iter().map(ratio).collect(),
-        None => result.read.maintained().map(point).collect(),
+        None => result.read.maintained().map(|value| point(value, &PlanWords::ENGLISH)).collect(),
     };
     let (title, lines) = heading(scene, (result, asked));
     let values = match asked.is_modelling() {
@@ -49,12 +50,13 @@ pub(super) fn write(
     render::write(output, &drawing.picture())
 }
 
-fn point(value: Option<isolux::map::Illuminance>) -> PlanPoint {
+/// A point of a plan in the words of a language.
+pub(crate) fn point(value: Option<Illuminance>, words: &PlanWords) -> PlanPoint {
     let lx = value.map(|value| value.illuminance_lx());
     let error_lx = value.map_or(0.0, |value| value.standard_error_lx);
     // Whole lux are enough on a plan, unless there are few.
-    let label = lx
-        .map_or(String::new(), |lx| to_error(lx, error_lx.max(if lx < 10.0 { 0.1 } else { 2.0 })));
+    let label = |lx: f64| to_error(lx, error_lx.max(if lx < 10.0 { 0.1 } else { 2.0 }));
+    let label = lx.map_or(String::new(), |lx| words.local(&label(lx)));
     PlanPoint { illuminance_lx: lx, standard_error_lx: error_lx, label }
 }
 

@@ -9,7 +9,6 @@ use super::rows::{Value, value};
 use crate::console::{print, print_json};
 use crate::failure::Failure;
 use crate::installed::Installed;
-use crate::interval::Interval;
 use crate::maintained::Maintained;
 use crate::shown::name;
 use isolux::map::{Figure, GridFigures};
@@ -26,13 +25,13 @@ pub(super) struct Found<'a> {
 }
 
 /// The mean of a grid that faces up, if illuminance is read on it.
-fn level_mean_lx(result: &GridResult, asked: &Asked) -> Option<Interval> {
+fn level_mean_lx(result: &GridResult, asked: &Asked) -> Option<Figure> {
     let faces_up = asked.is_planar() && asked.is_up(result.read.normal);
     result.read.figures.filter(|_| faces_up).map(|figures| figures.mean_lx)
 }
 
 /// Names of grids that face up, with their means.
-fn lit_by_power(results: &[GridResult], asked: &Asked) -> Vec<(String, Interval)> {
+fn lit_by_power(results: &[GridResult], asked: &Asked) -> Vec<(String, Figure)> {
     let of =
         |result: &GridResult| Some((name(&result.read.grid.name), level_mean_lx(result, asked)?));
     results.iter().filter_map(of).collect()
@@ -84,12 +83,12 @@ struct Report {
     /// Of them, those with a value.
     known: usize,
     /// Of a level grid.
-    power_density_w_m2_per_100_lx: Option<Interval>,
-    mean_lx: Option<Interval>,
-    least_lx: Option<Interval>,
-    greatest_lx: Option<Interval>,
-    uniformity: Option<Interval>,
-    diversity: Option<Interval>,
+    power_density_w_m2_per_100_lx: Option<Figure>,
+    mean_lx: Option<Figure>,
+    least_lx: Option<Figure>,
+    greatest_lx: Option<Figure>,
+    uniformity: Option<Figure>,
+    diversity: Option<Figure>,
     direct_lx: Option<f64>,
     indirect_lx: Option<f64>,
     /// At every point, along `u` first; null where not known.

@@ -1,17 +1,19 @@
 //! Whether what is required of calculation grids holds.
 
+use super::choice;
 use super::result::GridResult;
 use crate::failure::Failure;
+use crate::flags::GridChoice;
 use crate::glare;
-use crate::interval::{Interval, Verdict};
-use crate::maintained::Maintained;
+use crate::maintained::{self, Maintained};
 use crate::notes::{Note, note};
 use crate::shown::name;
 use isolux::engine::MapReader;
-use isolux::map::{GridFigures, IlluminationMap};
+use isolux::map::{Figure, GridFigures, Verdict};
 use isolux::scene::{CalculationGrid, Condition, GridQuantity, Requirement, Scene};
 use isolux_formats::requirement;
 use serde::Serialize;
+use std::path::Path;
 
 /// A condition on a grid, and what came of it.
 #[derive(Clone, Debug, Serialize)]
@@ -22,7 +24,7 @@ pub(crate) struct Judged {
     #[serde(rename = "condition", serialize_with = "as_text")]
     pub(crate) of: Condition,
     #[serde(flatten)]
-    pub(crate) figure: Interval,
+    pub(crate) figure: Figure,
     pub(crate) verdict: Verdict,
     /// How likely it holds, if errors are normal.
     pub(crate) probability: f64,
@@ -30,6 +32,23 @@ pub(crate) struct Judged {
 
 fn as_text<S: serde::Serializer>(of: &Condition, to: S) -> Result<S::Ok, S::Error> {
     to.serialize_str(&of.text())
+}
+
+/// The grids asked for, with the maintenance factor and the requirements asked for.
+pub(crate) fn grids(
+    choice: &GridChoice,
+    (maintenance_factor, require): (Option<f64>, &[String]),
+    (source, scene): (&Path, &Scene),
+) -> Result<Vec<CalculationGrid>, Failure> {
+    if let Some(factor) = maintenance_factor {
+        maintained::refuse_second(factor, scene, source)?;
+    }
+    let mut grids = choice::chosen(choice, source, scene)?;
+    for grid in &mut grids {
+        grid.maintenance_factor = maintenance_factor.unwrap_or(grid.maintenance_factor);
+    }
+    add(require, &mut grids)?;
+    Ok(grids)
 }
 
 /// Adds the requirements of `--require` to the grids that they are for: `desks: Em >= 500`, or without a name to all.
@@ -63,7 +82,7 @@ pub(crate) fn are_there(grids: &[CalculationGrid]) -> bool {
 /// All conditions on all grids.
 pub(crate) fn judge(
     results: &[GridResult],
-    lit: (&Scene, &IlluminationMap),
+    lit: (&Scene, &MapReader<'_>),
 ) -> Result<Vec<Judged>, Failure> {
     let mut judged = Vec::new();
     for GridResult { read, .. } in results {
@@ -83,11 +102,11 @@ pub(crate) fn judge(
 /// The worst glare rating on a grid, if something is required of it.
 pub(crate) fn rating(
     grid: &CalculationGrid,
-    (scene, map): (&Scene, &IlluminationMap),
-) -> Result<Option<Interval>, Failure> {
+    lit: (&Scene, &MapReader<'_>),
+) -> Result<Option<Figure>, Failure> {
     let mut conditions = grid.requirements.iter().flat_map(|of| &of.conditions);
     match conditions.any(|condition| condition.of == GridQuantity::GlareRating) {
-        true => glare::worst((scene, &MapReader::new(scene, map)), grid).map(Some),
+        true => glare::worst(lit, grid).map(Some),
         false => Ok(None),
     }
 }
@@ -95,7 +114,7 @@ pub(crate) fn rating(
 /// All conditions on a grid, by its figures and its rating.
 pub(crate) fn of_grid<'a>(
     grid: &'a CalculationGrid,
-    (figures, rating): (&'a GridFigures, Option<Interval>),
+    (figures, rating): (&'a GridFigures, Option<Figure>),
 ) -> impl Iterator<Item = Judged> + 'a {
     let of = move |requirement: &'a Requirement| {
         requirement.conditions.iter().filter_map(move |&of| {
@@ -118,7 +137,7 @@ pub(crate) fn of_grid<'a>(
 }
 
 /// `None` of a rating, which has figures of its own.
-const fn figure(of: GridQuantity, figures: &GridFigures) -> Option<Interval> {
+const fn figure(of: GridQuantity, figures: &GridFigures) -> Option<Figure> {
     Some(match of {
         GridQuantity::Mean => figures.mean_lx,
         GridQuantity::Least => figures.least_lx,

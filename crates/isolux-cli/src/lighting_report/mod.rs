@@ -9,13 +9,13 @@ mod year;
 use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{LanguageName, ReportFlags};
-use crate::grid::{choice, decide, requirement};
-use crate::maintained::{self, Maintained};
+use crate::grid::{decide, requirement};
+use crate::maintained::Maintained;
 use crate::origin::Extent;
 use crate::output::OutputPath;
 use crate::shown::name;
 use crate::{check, energy, map_file, source};
-use isolux::engine::reference_lx;
+use isolux::engine::{MapReader, reference_lx};
 use isolux::map::IlluminationMap;
 use isolux::scene::{CalculationGrid, LuminaireKind, Scene, UpAxis};
 use isolux_report::{Finding, Language, Maintenance, Project, Report, Severity};
@@ -67,13 +67,7 @@ impl Opened {
         if !map_file::is_map(&flags.source) {
             return Self::of_scene(flags);
         }
-        if flags.accuracy.is_some() {
-            return Err(Failure::bad_input(format!(
-                "--accuracy: {} is a map, which is solved; leave it out or give a scene",
-                flags.source.display()
-            )));
-        }
-        let (scene, map) = map_file::read(&flags.source)?;
+        let (scene, map) = map_file::read_solved(&flags.source, flags.accuracy)?;
         map_file::warn_of_unknown_error(&flags.source, &map);
         let grids = grids(flags, &scene)?;
         let findings = check::findings(&scene, &flags.source, &[]);
@@ -86,13 +80,14 @@ impl Opened {
         let grids = grids(flags, &scene)?;
         let findings = check::findings(&scene, &flags.source, &loaded.warnings);
         // A room with windows alone has a year of daylight, and no light of its own.
-        let is_dark = !scene.gives_light() && flags.year.weather.is_some();
+        let is_dark = !scene.gives_light() && flags.weather.is_some();
         let (map, outcome) = match is_dark {
             true => (None, Outcome::Done),
             false => {
                 let asked = (&scene, flags.source.as_path());
                 let judge = |map: &IlluminationMap| {
-                    requirement::judge(&areas::read((&scene, map), &grids), (&scene, map))
+                    let lit = (&scene, &MapReader::new(&scene, map));
+                    requirement::judge(&areas::read(lit, &grids), lit)
                 };
                 let (map, outcome) = decide::decided(asked, flags.accuracy, (&grids, &judge))?;
                 (Some(map), outcome)
@@ -102,36 +97,26 @@ impl Opened {
     }
 }
 
-/// The grids of the report: none of a scene without, unless some are asked for.
+/// The grids of the report: none of a scene without, unless something is asked of some.
 fn grids(flags: &ReportFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
-    if let Some(factor) = flags.maintenance_factor {
-        maintained::refuse_second(factor, scene, &flags.source)?;
+    if flags.grid.is_empty() && scene.grids().is_empty() && flags.require.is_empty() {
+        return Ok(Vec::new());
     }
-    let mut grids = match flags.grid.is_empty() && scene.grids().is_empty() {
-        true => Vec::new(),
-        false => choice::chosen(&flags.grid, &flags.source, scene)?,
-    };
-    for grid in &mut grids {
-        grid.maintenance_factor = flags.maintenance_factor.unwrap_or(grid.maintenance_factor);
-    }
-    requirement::add(&flags.require, &mut grids)?;
-    Ok(grids)
+    let required = (flags.maintenance_factor, flags.require.as_slice());
+    requirement::grids(&flags.grid, required, (&flags.source, scene))
 }
 
 fn report(flags: &ReportFlags, opened: &Opened, language: Language) -> Result<Report, Failure> {
     let Opened { scene, map, grids, findings, .. } = opened;
     let light = Maintained::of(scene);
     grids.iter().for_each(|grid| requirement::warn_of_initial(grid, light));
-    let daylight = year::of(&flags.year, scene, grids, language)?;
-    let lit = map.as_ref().map(|map| (scene, map));
-    let areas = match lit {
-        Some(lit) => areas::of(lit, grids, (&flags.inputs, language))?,
-        None => Vec::new(),
-    };
-    let (views, glare) = match lit {
-        Some(lit) => views::of(flags, lit)?,
-        None => Default::default(),
-    };
+    let daylight = year::of((flags.weather.as_deref(), &flags.year), scene, grids, language)?;
+    let (mut areas, mut views, mut glare) = Default::default();
+    if let Some(map) = map {
+        let reader = MapReader::new(scene, map);
+        areas = areas::of((scene, &reader), grids, (&flags.inputs, language.plan()))?;
+        (views, glare) = views::of(flags, (scene, map, &reader))?;
+    }
     let finding = |(is_warning, text): &(bool, String)| Finding {
         severity: if *is_warning { Severity::Warning } else { Severity::Note },
         text: text.clone(),

@@ -18,13 +18,13 @@ const SIZE: (u32, u32) = (1120, 630);
 /// The pictures of the cameras asked for, of all if none is, and the glare that each sees.
 pub(super) fn of(
     flags: &ReportFlags,
-    (scene, map): (&Scene, &IlluminationMap),
+    (scene, map, reader): (&Scene, &IlluminationMap, &MapReader<'_>),
 ) -> Result<(Vec<View>, Vec<Glare>), Failure> {
     let (mut views, mut glares) = (Vec::new(), Vec::new());
     let look = Look::usual(scene);
     for camera in cameras(flags, scene)? {
         views.push(view((scene, map), &camera, &look)?);
-        glares.extend(rated((scene, map), &camera));
+        glares.extend(rated((scene, reader), &camera));
     }
     Ok((views, glares))
 }
@@ -56,8 +56,8 @@ fn image(Picture { width, height, rgb, icc }: &Picture) -> Result<Image, Failure
 }
 
 /// `None` of an observer who is inside of something.
-fn rated((scene, map): (&Scene, &IlluminationMap), camera: &Camera) -> Option<Glare> {
-    let (rating, background_cd_m2) = glare::rated(scene, &MapReader::new(scene, map), camera)?;
+fn rated((scene, reader): (&Scene, &MapReader<'_>), camera: &Camera) -> Option<Glare> {
+    let (rating, background_cd_m2) = glare::rated(scene, reader, camera)?;
     Some(Glare {
         observer: Observer {
             name: name(&camera.name),

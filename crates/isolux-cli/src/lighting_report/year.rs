@@ -1,7 +1,7 @@
 //! The year of daylight of a report.
 
-use super::areas::{local, plan, words};
-use crate::annual::{self, Found, YearAsked};
+use super::areas::plan;
+use crate::annual::{self, Found};
 use crate::failure::Failure;
 use crate::flags::YearFlags;
 use crate::shown::name;
@@ -9,31 +9,26 @@ use isolux::scene::{CalculationGrid, Scene};
 use isolux::units::to_error;
 use isolux_report::{Daylight, DaylightArea, Language};
 use isolux_view::{PlanPoint, PlanWords};
+use std::path::Path;
 
 /// Nobody reads daylight factors finer than this, per cent.
 const LEAST_PERCENT: f64 = 0.05;
 
 /// `None` where no year is asked for.
 pub(super) fn of(
-    flags: &YearFlags,
+    (weather, flags): (Option<&Path>, &YearFlags),
     scene: &Scene,
     grids: &[CalculationGrid],
     language: Language,
 ) -> Result<Option<Daylight>, Failure> {
-    let Some(weather) = &flags.weather else { return Ok(None) };
+    let Some(weather) = weather else { return Ok(None) };
     if grids.is_empty() {
         let what = "--weather: there is no calculation grid to compute daylight on";
         return Err(Failure::bad_input(format!("{what}; give a --height, or a [[grid]]")));
     }
-    let asked = YearAsked {
-        weather,
-        hours: flags.hours,
-        ground_reflectance: flags.ground_reflectance,
-        paths: flags.paths,
-        seed: flags.seed,
-    };
-    let (place, found) = annual::of_scene(&asked, scene, grids.to_vec())?;
-    let areas = found.iter().map(|found| area(scene, found, language));
+    let (place, found) = annual::of_scene((weather, flags), scene, grids.to_vec())?;
+    let words = language.daylight_plan();
+    let areas = found.iter().map(|found| area(scene, found, &words));
     Ok(Some(Daylight {
         place: name(&place),
         hours: flags.hours.into(),
@@ -43,7 +38,7 @@ pub(super) fn of(
     }))
 }
 
-fn area(scene: &Scene, found: &Found, language: Language) -> Result<DaylightArea, Failure> {
+fn area(scene: &Scene, found: &Found, words: &PlanWords) -> Result<DaylightArea, Failure> {
     let of = &found.figures;
     let points: Vec<PlanPoint> = found
         .factors()
@@ -52,14 +47,13 @@ fn area(scene: &Scene, found: &Found, language: Language) -> Result<DaylightArea
             PlanPoint {
                 illuminance_lx: Some(percent),
                 standard_error_lx: error,
-                label: local(&to_error(percent, error.max(LEAST_PERCENT)), language),
+                label: words.local(&to_error(percent, error.max(LEAST_PERCENT))),
             }
         })
         .collect();
-    let words = PlanWords { values: language.plan().daylight_factor, ..words(language) };
     Ok(DaylightArea {
         name: name(&found.grid.name),
-        plan: Some(plan((scene, &found.grid), &points, &words)?),
+        plan: Some(plan((scene, &found.grid), &points, words)?),
         factor_mean: of.daylight_factor_mean,
         sky_component: of.sky_component_mean,
         factor_median: of.daylight_factor_median,

@@ -129,3 +129,36 @@ fn requirements_come_back() {
     let json: Value = serde_json::from_str(&ran.out).unwrap();
     assert_eq!(json["requirements"].as_array().unwrap().len(), 4);
 }
+
+/// Fluxes are in proportion, lines add as squares, and the report has the budget of the command.
+#[test]
+fn a_budget_adds_up() {
+    let home = Home::new();
+    home.file("room.toml", ROOM);
+    let inputs = ["--flux", "5%", "--reflectance", "10%"];
+    let ran = home.run(&[&["budget", "room.toml", "--json"], inputs.as_slice()].concat());
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let json: Value = serde_json::from_str(&ran.out).unwrap();
+    let grid = &json["grids"][0];
+    let number = |of: &Value| of.as_f64().unwrap();
+    let lines = grid["lines"].as_array().unwrap();
+    let kinds: Vec<&str> =
+        lines.iter().map(|line| line["source"]["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["calculation", "flux", "reflectance"]);
+    let mean_lx = number(&grid["mean_lx"]["value"]);
+    assert!((number(&lines[1]["half_lx"]) - 0.05 * mean_lx).abs() < 1e-9 * mean_lx);
+    // Walls of 0.5 everywhere: reflected light is some part of the mean, and depends on them by more than its tenth.
+    assert!(number(&lines[2]["half_lx"]) > 0.01 * mean_lx, "{grid}");
+    let squares: f64 = lines.iter().map(|line| number(&line["half_lx"]).powi(2)).sum();
+    let half_lx = number(&grid["with_inputs_lx"]["high"]) - mean_lx;
+    assert!((half_lx - squares.sqrt()).abs() < 1e-9 * mean_lx, "{half_lx}");
+    let shares: f64 = lines.iter().map(|line| number(&line["share"])).sum();
+    assert!((shares - 1.0).abs() < 1e-12);
+    let text = report(&home, &inputs).1;
+    assert!(text.contains("Reflectance of paint") && text.contains("Luminous flux"));
+    for (more, part) in [(&[][..], "--flux 5%"), (&["--flux", "x"], "--flux")] {
+        let ran = home.run(&[&["budget", "room.toml"], more].concat());
+        assert_eq!(ran.code, 2, "{more:?}: {ran:?}");
+        assert!(ran.err.contains(part), "{part}: {}", ran.err);
+    }
+}

@@ -3,10 +3,10 @@
 use super::document::{Block, Column, Document, Group, Picture, Pictures, Section, Source, Table};
 use super::graph;
 use super::graph::Graph;
-use super::markup::escape;
 use super::quantity::UNKNOWN;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use isolux::units::escape_markup as escape;
 
 const STYLE: &str = include_str!("report.css");
 const SCRIPT: &str = include_str!("report.js");

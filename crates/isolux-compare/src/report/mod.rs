@@ -6,7 +6,6 @@ mod document;
 mod graph;
 mod html;
 mod markdown;
-mod markup;
 mod quantity;
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 
 use super::shown::{Shown, Viewpoint};
 use crate::map_glb::Displayed;
+use isolux::units::escape_markup as escaped;
 use std::fmt::{Display, Write};
 
 /// The file. Writing to a string cannot fail.
@@ -90,19 +91,4 @@ fn list(items: impl Iterator<Item = impl Display>, text: &mut String) {
     for item in items {
         let _ = writeln!(text, "{item}");
     }
-}
-
-/// For an attribute; what XML has no character for is left out.
-fn escaped(text: &str) -> String {
-    let mut found = String::new();
-    for c in text.chars().filter(|c| !c.is_control()) {
-        match c {
-            '&' => found.push_str("&amp;"),
-            '<' => found.push_str("&lt;"),
-            '>' => found.push_str("&gt;"),
-            '"' => found.push_str("&quot;"),
-            other => found.push(other),
-        }
-    }
-    found
 }

@@ -2,9 +2,10 @@
 
 use super::least::{LEAST_LX, LEAST_RATIO};
 use crate::document::{Block, Cell, Section, Table, numbers, row, words};
-use crate::report::{Area, Condition, Quantity, Report, Requirement};
+use crate::report::{Area, Report, Requirement};
 use crate::words::{Words, fill};
 use isolux::map::{Figure, Verdict};
+use isolux::scene::{Condition, GridQuantity};
 
 /// `None` of a report without grids.
 pub(super) fn section(report: &Report, language: &Words) -> Option<Section> {
@@ -48,7 +49,7 @@ fn requirements(report: &Report, language: &Words) -> Table {
 fn requirement_row(area: &Area, of: &Requirement, language: &Words) -> Vec<Cell> {
     let source = of.source.as_ref().map_or(String::new(), |source| format!(" ({source})"));
     let required = format!("{}{source}", condition(&of.condition, language));
-    let found = found(of.condition.quantity, of.figure, language);
+    let found = found(of.condition.of, of.figure, language);
     let likely = match of.verdict {
         Verdict::Undecided => {
             let share = format!("{:.0} %", 100.0 * of.probability);
@@ -63,36 +64,26 @@ fn requirement_row(area: &Area, of: &Requirement, language: &Words) -> Vec<Cell>
 fn condition(of: &Condition, language: &Words) -> String {
     let sign = if of.is_least { "\u{2265}" } else { "\u{2264}" };
     let bound = language.local(&of.bound.to_string());
-    format!("{} {sign} {bound}{}", symbol(of.quantity), unit(of.quantity))
+    format!("{} {sign} {bound}{}", symbol(of.of), of.of.unit())
 }
 
-fn found(quantity: Quantity, figure: Figure, language: &Words) -> String {
-    format!("{}{}", language.figure(figure, least(quantity)), unit(quantity))
+fn found(quantity: GridQuantity, figure: Figure, language: &Words) -> String {
+    format!("{}{}", language.figure(figure, least(quantity)), quantity.unit())
 }
 
-const fn symbol(quantity: Quantity) -> &'static str {
+/// The symbol, with the index that it has in print.
+fn symbol(quantity: GridQuantity) -> &'static str {
     match quantity {
-        Quantity::Mean => "Em",
-        Quantity::Least => "Emin",
-        Quantity::Greatest => "Emax",
-        Quantity::Uniformity => "U\u{2080}",
-        Quantity::Diversity => "Ud",
-        Quantity::GlareRating => "UGR",
+        GridQuantity::Uniformity => "U\u{2080}",
+        other => other.symbol(),
     }
 }
 
-const fn unit(quantity: Quantity) -> &'static str {
+const fn least(quantity: GridQuantity) -> f64 {
     match quantity {
-        Quantity::Mean | Quantity::Least | Quantity::Greatest => " lx",
-        Quantity::Uniformity | Quantity::Diversity | Quantity::GlareRating => "",
-    }
-}
-
-const fn least(quantity: Quantity) -> f64 {
-    match quantity {
-        Quantity::Mean | Quantity::Least | Quantity::Greatest => LEAST_LX,
-        Quantity::Uniformity | Quantity::Diversity => LEAST_RATIO,
-        Quantity::GlareRating => 0.05,
+        GridQuantity::Mean | GridQuantity::Least | GridQuantity::Greatest => LEAST_LX,
+        GridQuantity::Uniformity | GridQuantity::Diversity => LEAST_RATIO,
+        GridQuantity::GlareRating => 0.05,
     }
 }
 
@@ -102,11 +93,11 @@ fn figures(areas: &[Area], language: &Words) -> Table {
     let of = |area: &Area| {
         let cells = match &area.figures {
             Some(f) => [
-                (Quantity::Mean, f.mean_lx),
-                (Quantity::Least, f.least_lx),
-                (Quantity::Greatest, f.greatest_lx),
-                (Quantity::Uniformity, f.uniformity),
-                (Quantity::Diversity, f.diversity),
+                (GridQuantity::Mean, f.mean_lx),
+                (GridQuantity::Least, f.least_lx),
+                (GridQuantity::Greatest, f.greatest_lx),
+                (GridQuantity::Uniformity, f.uniformity),
+                (GridQuantity::Diversity, f.diversity),
             ]
             .map(|(quantity, figure)| language.figure(figure, least(quantity))),
             None => [const { String::new() }; 5].map(|_| language.unknown.to_owned()),

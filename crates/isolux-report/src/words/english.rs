@@ -2,23 +2,13 @@
 
 use super::phrases::{
     AccuracyWords, AreaWords, AssumptionWords, BudgetWords, CoverWords, DaylightWords, GlareWords,
-    LuminaireWords, PlanWords, ResultWords, ViewWords, Words,
+    LuminaireWords, ResultWords, ViewWords, Words,
 };
+use isolux_view::PlanWords;
 
 pub(super) const WORDS: Words = Words {
     code: "en",
-    decimal_point: '.',
-    plan: PlanWords {
-        illuminance: "Illuminance in lx",
-        daylight_factor: "Daylight factor in %",
-        cut_at_height: "cut at this height",
-        cut_by_plane: "cut by this plane",
-        below: "just below",
-        behind: "just behind",
-        luminaire: "luminaire",
-        grid: "grid",
-        point: "grid point",
-    },
+    plan: PlanWords::ENGLISH,
     cover: CoverWords {
         subtitle: "Lighting report",
         subtitle_daylight: "Lighting and daylight report",
@@ -100,6 +90,7 @@ pub(super) const WORDS: Words = Words {
     },
     daylight: DaylightWords {
         title: "Daylight",
+        factor: "Daylight factor in %",
         lead: "The year is that of the weather file for {place}, the hours of use are {from} to {to} by standard time. Skies are those of Perez, the \
                ground reflects {ground} of the light, luminaires are off, and there are no blinds. {paths} paths were traced from every \
                point.",

@@ -2,15 +2,15 @@
 
 use super::phrases::{
     AccuracyWords, AreaWords, AssumptionWords, BudgetWords, CoverWords, DaylightWords, GlareWords,
-    LuminaireWords, PlanWords, ResultWords, ViewWords, Words,
+    LuminaireWords, ResultWords, ViewWords, Words,
 };
+use isolux_view::PlanWords;
 
 pub(super) const WORDS: Words = Words {
     code: "de",
-    decimal_point: ',',
     plan: PlanWords {
-        illuminance: "Beleuchtungsstärke in lx",
-        daylight_factor: "Tageslichtquotient in %",
+        values: "Beleuchtungsstärke in lx",
+        decimal_point: ',',
         cut_at_height: "Schnitt in dieser Höhe",
         cut_by_plane: "Schnitt in dieser Ebene",
         below: "knapp darunter",
@@ -109,6 +109,7 @@ pub(super) const WORDS: Words = Words {
     },
     daylight: DaylightWords {
         title: "Tageslicht",
+        factor: "Tageslichtquotient in %",
         lead: "Das Jahr ist das der Wetterdatei für {place}, die Nutzungszeit reicht von {from} bis {to} Uhr Normalzeit. Die Himmel sind die von Perez, der Boden \
                reflektiert {ground} des Lichtes, die Leuchten sind aus, und es gibt keinen Sonnenschutz. Von jedem Punkt wurden {paths} Pfade \
                verfolgt.",

@@ -4,7 +4,7 @@ mod english;
 mod german;
 mod phrases;
 
-pub use phrases::PlanWords;
+use isolux_view::PlanWords;
 pub(crate) use phrases::Words;
 
 /// The languages of reports.
@@ -18,14 +18,14 @@ pub enum Language {
 }
 
 impl Language {
-    /// The words of plans.
-    pub fn plan(self) -> &'static PlanWords {
+    /// The words of plans of illuminance.
+    pub const fn plan(self) -> &'static PlanWords {
         &self.words().plan
     }
 
-    /// The point between the whole and the broken part of numbers.
-    pub fn decimal_point(self) -> char {
-        self.words().decimal_point
+    /// The words of plans of daylight factors.
+    pub const fn daylight_plan(self) -> PlanWords {
+        PlanWords { values: self.words().daylight.factor, ..self.words().plan }
     }
 
     pub(crate) const fn words(self) -> &'static Words {

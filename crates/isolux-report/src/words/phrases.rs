@@ -2,36 +2,14 @@
 
 use isolux::map::{Figure, Verdict};
 use isolux::units::{significant, to_error};
-
-/// The words of plans, which are drawn elsewhere.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PlanWords {
-    /// What the colours are.
-    pub illuminance: &'static str,
-    /// The same of daylight factors.
-    pub daylight_factor: &'static str,
-    /// What a level plane cuts.
-    pub cut_at_height: &'static str,
-    /// What another plane cuts.
-    pub cut_by_plane: &'static str,
-    /// What lies closely below a level plane.
-    pub below: &'static str,
-    /// What lies closely behind another plane.
-    pub behind: &'static str,
-    /// A luminaire.
-    pub luminaire: &'static str,
-    /// The border of the grid.
-    pub grid: &'static str,
-    /// One of its points.
-    pub point: &'static str,
-}
+use isolux_view::PlanWords;
 
 /// All words of a language. Braces hold places for figures.
 #[derive(Debug)]
 pub(crate) struct Words {
     /// The language by its code (BCP 47).
     pub(crate) code: &'static str,
-    pub(crate) decimal_point: char,
+    /// Those of plans, which are drawn elsewhere, and the point of numbers.
     pub(crate) plan: PlanWords,
     pub(crate) cover: CoverWords,
     pub(crate) results: ResultWords,
@@ -155,6 +133,8 @@ pub(crate) struct LuminaireWords {
 #[derive(Debug)]
 pub(crate) struct DaylightWords {
     pub(crate) title: &'static str,
+    /// The values of its plans.
+    pub(crate) factor: &'static str,
     /// `{place}`, `{from}`, `{to}`, `{ground}`, `{paths}`.
     pub(crate) lead: &'static str,
     pub(crate) plan: &'static str,
@@ -255,10 +235,7 @@ impl Words {
 
     /// A number with the point of the language.
     pub(crate) fn local(&self, number: &str) -> String {
-        match self.decimal_point {
-            '.' => number.to_owned(),
-            point => number.replace('.', point.encode_utf8(&mut [0; 4])),
-        }
+        self.plan.local(number)
     }
 
     /// A number with so many significant digits.
@@ -289,7 +266,7 @@ impl Words {
 
     /// A share in per cent with its interval.
     pub(crate) fn percent(&self, of: Figure, least_percent: f64) -> String {
-        format!("{} %", self.figure(of.times(100.0), least_percent))
+        format!("{}\u{a0}%", self.figure(of.times(100.0), least_percent))
     }
 
     /// A share in per cent.

@@ -38,7 +38,7 @@ impl PlanWords {
     };
 
     /// A number with the point of the language.
-    pub(super) fn local(&self, number: &str) -> String {
+    pub fn local(&self, number: &str) -> String {
         number.replace('.', self.decimal_point.encode_utf8(&mut [0; 4]))
     }
 }

@@ -7,14 +7,13 @@ use super::position::daylight_position_index;
 use crate::failure::Failure;
 use crate::flags::GlareFlags;
 use crate::glare_threshold::Threshold;
-use crate::interval::Interval;
 use crate::quantity::significant;
 use crate::shown::name;
 use crate::traced::Watched;
 use field::{Field, view_of};
 use isolux::engine::{MapReader, ProbePoint};
-use isolux::map::IlluminationMap;
 use isolux::map::NORMAL_95;
+use isolux::map::{Figure, IlluminationMap};
 use isolux::scene::{Camera, Scene};
 use isolux::units::to_error;
 use isolux_view::Size;
@@ -37,13 +36,13 @@ pub(super) struct Daylit {
     observer: String,
     position: [f64; 3],
     direction: [f64; 3],
-    dgp: Interval,
+    dgp: Figure,
     /// By the value; the ends of the interval may be in others.
     class: &'static str,
     /// Of the low and of the high end.
     class_from: &'static str,
     class_to: &'static str,
-    illuminance_at_eye_lx: Interval,
+    illuminance_at_eye_lx: Figure,
     mean_luminance_cd_m2: f64,
     threshold_cd_m2: f64,
     sources: Vec<Source>,
@@ -95,7 +94,7 @@ fn one(
     let half = half_width(lx, error_lx, &sums);
     let mean = sums.iter().sum::<f64>() / f64::from(ROUNDS);
     let value = probability(lx, mean);
-    let dgp = Interval { value, low: (value - half).max(0.0), high: (value + half).min(1.0) };
+    let dgp = Figure { value, low: (value - half).max(0.0), high: (value + half).min(1.0) };
     let (mean_luminance_cd_m2, threshold_cd_m2, sources) = fields.swap_remove(0);
     let reach = NORMAL_95 * error_lx;
     Ok(Daylit {
@@ -106,7 +105,7 @@ fn one(
         class_from: class(dgp.low),
         class_to: class(dgp.high),
         dgp,
-        illuminance_at_eye_lx: Interval { value: lx, low: (lx - reach).max(0.0), high: lx + reach },
+        illuminance_at_eye_lx: Figure { value: lx, low: (lx - reach).max(0.0), high: lx + reach },
         mean_luminance_cd_m2,
         threshold_cd_m2,
         sources,
@@ -176,7 +175,7 @@ fn class(dgp: f64) -> &'static str {
 /// For people.
 pub(super) fn text(observed: &[Daylit]) -> String {
     let row = |of: &Daylit| {
-        let Interval { value, low, high } = of.dgp;
+        let Figure { value, low, high } = of.dgp;
         let written = |dgp: f64| to_error(dgp, (0.5 * (high - low)).max(0.005));
         let class = if of.class_from == of.class_to {
             of.class.to_owned()

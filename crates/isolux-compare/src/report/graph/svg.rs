@@ -4,7 +4,7 @@ use super::draw::draw;
 use super::look;
 use super::plan::Graph;
 use super::sheet::{UNITS, WIDTH};
-use crate::report::markup::escape;
+use isolux::units::escape_markup as escape;
 
 /// Rules of CSS that all drawings share.
 const SHARED: &str = include_str!("graph.css");

@@ -88,9 +88,9 @@ impl Operator {
         self.chunks.par_iter().flat_map_iter(reflected).collect()
     }
 
-    /// `A` transposed, for white light, applied to values of receivers: the weight with which each vertex is read.
-    pub(crate) fn read_by(&self, receivers: &[f64]) -> Vec<f64> {
-        let mut read = vec![0.0; receivers.len()];
+    /// `A` transposed, for white light, applied to values of receivers: the weight with which each of so many vertices is read.
+    pub(crate) fn read_by(&self, receivers: &[f64], vertices: usize) -> Vec<f64> {
+        let mut read = vec![0.0; vertices];
         let mut left = receivers;
         for rows in &self.chunks {
             let (part, others) = left.split_at(rows.ends.len());
@@ -103,11 +103,7 @@ impl Operator {
     /// The weight with which the mean of all rows reads each of so many vertices, for white light.
     pub(crate) fn weights(&self, vertices: usize) -> Vec<f64> {
         let count: usize = self.chunks.iter().map(|rows| rows.ends.len()).sum();
-        let mut read = vec![0.0; vertices];
-        for rows in &self.chunks {
-            rows.add_read_by(&vec![1.0 / count as f64; rows.ends.len()], &mut read);
-        }
-        read
+        self.read_by(&vec![1.0 / count as f64; count], vertices)
     }
 
     /// Appends the receivers of another operator.

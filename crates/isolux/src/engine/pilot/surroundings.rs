@@ -156,7 +156,9 @@ fn read_from_there(
     (areas_m2, weights): (&[f64], &[f64]),
 ) -> Vec<f64> {
     let weighted: Vec<f64> = areas_m2.iter().zip(weights).map(|(m2, weight)| m2 * weight).collect();
-    let [read, counted] = [operator.read_by(areas_m2), operator.read_by(&weighted)];
+    let vertices = areas_m2.len();
+    let [read, counted] =
+        [operator.read_by(areas_m2, vertices), operator.read_by(&weighted, vertices)];
     let weight = |v: usize| {
         let all_m2 = elements.vertices()[v].area_m2.max(read[v]);
         if all_m2 > 0.0 { counted[v] / all_m2 } else { 0.0 }

@@ -280,7 +280,7 @@ fn what_is_read_is_read_by_somebody() {
     let grey: Vec<Rgb> = light.iter().map(|&lx| Rgb::grey(lx)).collect();
     let gathered = operator.reflected(&grey).into_iter().zip(&receivers);
     let forward: f64 = gathered.map(|(e, of)| e.luminance() * of).sum();
-    let read = operator.read_by(&receivers);
+    let read = operator.read_by(&receivers, receivers.len());
     let back: f64 = read.iter().zip(&light).map(|(read, lx)| read * lx).sum();
     // The same products, added up in another order.
     assert!((forward - back).abs() < 1e-9 * forward, "{forward} {back}");

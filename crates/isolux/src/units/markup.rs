@@ -1,7 +1,7 @@
 //! Text as XML and HTML write it.
 
 /// The text with characters that have a meaning of their own written otherwise.
-pub(super) fn escape(text: &str) -> String {
+pub fn escape_markup(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -23,6 +23,6 @@ mod tests {
 
     #[test]
     fn what_has_a_meaning_is_escaped() {
-        assert_eq!(escape("a<b & \"c\"\u{1}"), "a&lt;b &amp; &quot;c&quot;\u{fffd}");
+        assert_eq!(escape_markup("a<b & \"c\"\u{1}"), "a&lt;b &amp; &quot;c&quot;\u{fffd}");
     }
 }
