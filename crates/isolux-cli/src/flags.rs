@@ -7,6 +7,7 @@ mod grid;
 mod grid_choice;
 mod render;
 mod report;
+mod required;
 mod shown;
 mod solve;
 
@@ -19,6 +20,7 @@ pub(crate) use render::{
     EyeFlags, LookFlags, RadianceFlags, RenderFlags, ToneName, with_two_dashes,
 };
 pub(crate) use report::{LanguageName, ReportFlags};
+pub(crate) use required::RequiredFlags;
 pub(crate) use shown::{ExportFlags, LayoutFlags, LayoutName, ServerFlags, TargetName, ViewFlags};
 pub(crate) use solve::{BakeFlags, MethodName, ProgressStyle, Quality, RadiosityFlags, SolveFlags};
 

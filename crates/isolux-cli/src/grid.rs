@@ -40,7 +40,8 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
         return emergency::run((kind, flags), &scene, json);
     }
     let asked = Asked::of(flags, &scene)?;
-    let grids = grids((flags, &asked), &scene)?;
+    let source = (flags.source.as_path(), &scene);
+    let grids = requirement::grids((&flags.grid, asked.is_planar()), &flags.required, source)?;
     if picture.is_some() && grids.len() > 1 {
         return Err(Failure::bad_input(format!(
             "--picture: {} has {} grids; choose one with --name",
@@ -58,7 +59,9 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     };
     let (map, outcome) = match map {
         Some(map) => (map, Outcome::Done),
-        None => decide::decided((&scene, &flags.source), flags.accuracy, (&grids, &judge))?,
+        None => {
+            decide::decided((&scene, &flags.source), flags.required.accuracy, (&grids, &judge))?
+        }
     };
     map_file::warn_of_unknown_error(&flags.source, &map);
     let light = Maintained::of(&scene);
@@ -86,25 +89,8 @@ fn opened(flags: &GridFlags) -> Result<(Scene, Option<IlluminationMap>), Failure
     if !map_file::is_map(&flags.source) {
         return Ok((source::read_scene(&flags.source)?, None));
     }
-    let (scene, map) = map_file::read_solved(&flags.source, flags.accuracy)?;
+    let (scene, map) = map_file::read_solved(&flags.source, flags.required.accuracy)?;
     Ok((scene, Some(map)))
-}
-
-/// The grids asked for, as they are asked for.
-fn grids(
-    (flags, asked): (&GridFlags, &Asked),
-    scene: &Scene,
-) -> Result<Vec<CalculationGrid>, Failure> {
-    let maintained = flags.maintenance_factor;
-    if asked.is_planar() {
-        let required = (maintained, flags.require.as_slice());
-        return requirement::grids(&flags.grid, required, (&flags.source, scene));
-    }
-    // What a scene requires is of illuminance.
-    let mut grids = requirement::grids(&flags.grid, (maintained, &[]), (&flags.source, scene))?;
-    grids.iter_mut().for_each(|grid| grid.requirements.clear());
-    requirement::add(&flags.require, &mut grids)?;
-    Ok(grids)
 }
 
 /// What figures do not say.

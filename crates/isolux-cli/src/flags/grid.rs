@@ -1,6 +1,7 @@
 //! Arguments of `isolux grid`.
 
 use super::grid_choice::GridChoice;
+use super::required::RequiredFlags;
 use super::solve::FURTHER_HELP;
 use crate::quantity;
 use clap::{Args, ValueEnum};
@@ -28,12 +29,8 @@ pub(crate) struct GridFlags {
     pub further: Vec<PathBuf>,
     #[command(flatten)]
     pub grid: GridChoice,
-    /// The share of the initial light that is left when maintained: 0.8 or 80%; 1 is all of it [default: the grid's, else 1]
-    #[arg(long, value_name = "SHARE", value_parser = quantity::maintenance_factor, allow_hyphen_values = true)]
-    pub maintenance_factor: Option<f64>,
-    /// Of a scene: solve it to this accuracy [default: 1%, or what --require needs]
-    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
-    pub accuracy: Option<f64>,
+    #[command(flatten)]
+    pub required: RequiredFlags,
     /// Judge emergency lighting by EN 1838:2013: direct light of the luminaires marked `emergency` in scene.toml alone. Exit code 1
     /// unless all is surely met
     #[arg(long, value_enum, value_name = "KIND", conflicts_with_all = ["csv", "picture", "require", "quantity", "accuracy"])]
@@ -47,10 +44,6 @@ pub(crate) struct GridFlags {
     /// The way that semi-cylindrical illuminance faces in plan, degrees: 0 for +x, 90 for +y (-z where y is up)
     #[arg(long, value_name = "DEG", value_parser = quantity::azimuth_deg, allow_hyphen_values = true)]
     pub facing: Option<f64>,
-    /// What has to hold on a grid, or on all: "desks: Em >= 500, U0 >= 0.6", or "desks: EN 12464-1 34.2"; may be repeated.
-    /// Exit code 1 unless it is surely met; a scene is solved until that is decided
-    #[arg(long, value_name = "WHAT")]
-    pub require: Vec<String>,
     /// Write all points with their values
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,

@@ -3,8 +3,8 @@
 use super::budget::InputFlags;
 use super::daylight::YearFlags;
 use super::grid_choice::GridChoice;
+use super::required::RequiredFlags;
 use super::solve::FURTHER_HELP;
-use crate::quantity;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -50,15 +50,8 @@ pub(crate) struct ReportFlags {
     pub camera: Vec<String>,
     #[command(flatten)]
     pub grid: GridChoice,
-    /// The share of the initial light that is left when maintained: 0.8 or 80%; 1 is all of it [default: the grid's, else 1]
-    #[arg(long, value_name = "SHARE", value_parser = quantity::maintenance_factor, allow_hyphen_values = true)]
-    pub maintenance_factor: Option<f64>,
-    /// Of a scene: solve it to this accuracy [default: 1%, or what requirements need]
-    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
-    pub accuracy: Option<f64>,
-    /// What has to hold on a grid, or on all, beside what the scene requires: "desks: Em >= 500, U0 >= 0.6", or "desks: EN 12464-1 34.2"
-    #[arg(long, value_name = "WHAT")]
-    pub require: Vec<String>,
+    #[command(flatten)]
+    pub required: RequiredFlags,
     #[command(flatten)]
     pub inputs: InputFlags,
     /// Add a year of daylight, by this year of weather (EnergyPlus)

@@ -111,7 +111,7 @@ impl Asked {
 
 /// Tasks of EN 12464-1 are of the illuminance of the task area.
 fn refuse_tasks(flags: &GridFlags) -> Result<(), Failure> {
-    let of_task = flags.require.iter().find(|text| text.contains("EN 12464-1"));
+    let of_task = flags.required.require.iter().find(|text| text.contains("EN 12464-1"));
     of_task.map_or(Ok(()), |text| {
         Err(Failure::bad_input(format!(
             "--require: `{text}` is of the illuminance of the task area; leave --quantity out, or give conditions, as \

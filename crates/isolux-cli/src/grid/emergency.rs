@@ -2,11 +2,11 @@
 
 mod points;
 
-use super::choice;
+use super::requirement;
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{EmergencyName, GridFlags};
-use crate::maintained::{self, Maintained};
+use crate::maintained::Maintained;
 use crate::probe;
 use crate::shown::name;
 use isolux::engine::{ExactSettings, ProbePoint};
@@ -73,12 +73,9 @@ pub(super) fn run(
             }
         }));
     }
-    if let Some(factor) = flags.maintenance_factor {
-        maintained::refuse_second(factor, scene, &flags.source)?;
-    }
     let mut judged = Vec::new();
-    for mut grid in choice::chosen(&flags.grid, &flags.source, scene)? {
-        grid.maintenance_factor = flags.maintenance_factor.unwrap_or(grid.maintenance_factor);
+    let source = (flags.source.as_path(), scene);
+    for grid in requirement::grids((&flags.grid, true), &flags.required, source)? {
         judged.extend(on_grid((kind, flags), &lit, grid)?);
     }
     if json {

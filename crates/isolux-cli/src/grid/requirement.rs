@@ -3,7 +3,7 @@
 use super::choice;
 use super::result::GridResult;
 use crate::failure::Failure;
-use crate::flags::GridChoice;
+use crate::flags::{GridChoice, RequiredFlags};
 use crate::glare;
 use crate::maintained::{self, Maintained};
 use crate::notes::{Note, note};
@@ -34,25 +34,29 @@ fn as_text<S: serde::Serializer>(of: &Condition, to: S) -> Result<S::Ok, S::Erro
     to.serialize_str(&of.text())
 }
 
-/// The grids asked for, with the maintenance factor and the requirements asked for.
+/// The grids asked for, with the maintenance factor and the requirements asked for. What a scene requires is of illuminance, and left
+/// out where something else is read.
 pub(crate) fn grids(
-    choice: &GridChoice,
-    (maintenance_factor, require): (Option<f64>, &[String]),
+    (choice, is_illuminance): (&GridChoice, bool),
+    required: &RequiredFlags,
     (source, scene): (&Path, &Scene),
 ) -> Result<Vec<CalculationGrid>, Failure> {
-    if let Some(factor) = maintenance_factor {
+    if let Some(factor) = required.maintenance_factor {
         maintained::refuse_second(factor, scene, source)?;
     }
     let mut grids = choice::chosen(choice, source, scene)?;
     for grid in &mut grids {
-        grid.maintenance_factor = maintenance_factor.unwrap_or(grid.maintenance_factor);
+        grid.maintenance_factor = required.maintenance_factor.unwrap_or(grid.maintenance_factor);
+        if !is_illuminance {
+            grid.requirements.clear();
+        }
     }
-    add(require, &mut grids)?;
+    add(&required.require, &mut grids)?;
     Ok(grids)
 }
 
 /// Adds the requirements of `--require` to the grids that they are for: `desks: Em >= 500`, or without a name to all.
-pub(crate) fn add(flags: &[String], grids: &mut [CalculationGrid]) -> Result<(), Failure> {
+fn add(flags: &[String], grids: &mut [CalculationGrid]) -> Result<(), Failure> {
     for text in flags {
         let (named, rest) = match text.split_once(':') {
             Some((named, rest)) => (Some(named.trim()), rest),

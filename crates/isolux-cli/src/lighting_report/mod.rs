@@ -67,7 +67,7 @@ impl Opened {
         if !map_file::is_map(&flags.source) {
             return Self::of_scene(flags);
         }
-        let (scene, map) = map_file::read_solved(&flags.source, flags.accuracy)?;
+        let (scene, map) = map_file::read_solved(&flags.source, flags.required.accuracy)?;
         map_file::warn_of_unknown_error(&flags.source, &map);
         let grids = grids(flags, &scene)?;
         let findings = check::findings(&scene, &flags.source, &[]);
@@ -89,7 +89,8 @@ impl Opened {
                     let lit = (&scene, &MapReader::new(&scene, map));
                     requirement::judge(&areas::read(lit, &grids), lit)
                 };
-                let (map, outcome) = decide::decided(asked, flags.accuracy, (&grids, &judge))?;
+                let (map, outcome) =
+                    decide::decided(asked, flags.required.accuracy, (&grids, &judge))?;
                 (Some(map), outcome)
             }
         };
@@ -99,11 +100,10 @@ impl Opened {
 
 /// The grids of the report: none of a scene without, unless something is asked of some.
 fn grids(flags: &ReportFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
-    if flags.grid.is_empty() && scene.grids().is_empty() && flags.require.is_empty() {
+    if flags.grid.is_empty() && scene.grids().is_empty() && flags.required.require.is_empty() {
         return Ok(Vec::new());
     }
-    let required = (flags.maintenance_factor, flags.require.as_slice());
-    requirement::grids(&flags.grid, required, (&flags.source, scene))
+    requirement::grids((&flags.grid, true), &flags.required, (&flags.source, scene))
 }
 
 fn report(flags: &ReportFlags, opened: &Opened, language: Language) -> Result<Report, Failure> {

@@ -34,6 +34,11 @@ pub(crate) struct Stand {
 }
 
 impl SurfacePoint {
+    /// The same place as a plane with another normal.
+    pub(crate) fn facing(&self, normal: Normal) -> Self {
+        Self { geometric: normal, shading: normal, ..*self }
+    }
+
     /// The place that a ray hits.
     pub(crate) fn from_hit(scene: &Scene, hit: &Hit) -> Self {
         Self::new(scene, hit.triangle, hit.back, f64::from(hit.u), f64::from(hit.v))

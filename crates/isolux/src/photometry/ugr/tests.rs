@@ -76,13 +76,15 @@ fn by_luminaires(web: &PhotometricWeb, room: UgrRoom, of: UgrReflectances, turn_
     }
     let down = count * web.flux_below_lm(90.0);
     let up = count * web.luminous_flux_lm() - down;
-    let background = walls_lx(room, of, [up, down - on_floor, on_floor]) / PI;
+    let walls_m2 = 8.0 * f64::from(room.across + room.along);
+    let background = by_bounces(room, of, [up, down - on_floor, on_floor]) / walls_m2 / PI;
     8.0 * libm::log10(0.25 / background * sum)
 }
 
-/// Reflected light on the walls, bounce by bounce; the form factor of ceiling and floor by what a Lambertian ceiling sends.
-fn walls_lx(room: UgrRoom, of: UgrReflectances, direct: [f64; 3]) -> f64 {
-    let (a, b) = (f64::from(room.across), f64::from(room.along));
+/// Reflected light on the walls, bounce by bounce, of direct light on ceiling, walls and floor; the form factor of ceiling and floor by
+/// the midpoint rule.
+pub(super) fn by_bounces(room: UgrRoom, of: UgrReflectances, direct: [f64; 3]) -> f64 {
+    let [a, b] = [room.across, room.along].map(f64::from);
     let n = 28;
     let places = |side: f64| (0..n).map(move |k| side * (f64::from(k) + 0.5) / f64::from(n));
     let mut facing = 0.0;
@@ -92,18 +94,19 @@ fn walls_lx(room: UgrRoom, of: UgrReflectances, direct: [f64; 3]) -> f64 {
             facing += a * b / (PI * square * square * f64::from(n * n * n * n));
         }
     }
-    let from_walls = a * b * (1.0 - facing) / (2.0 * (a + b));
-    let (mut now, mut walls) = (direct, 0.0);
-    for _ in 0..100 {
+    let to_walls = 1.0 - facing;
+    let from_walls = a * b / (2.0 * (a + b)) * to_walls;
+    let (mut now, mut sum) = (direct, 0.0);
+    for _ in 0..200 {
         let [c, w, f] = [now[0] * of.ceiling, now[1] * of.walls, now[2] * of.floor];
         now = [
             w * from_walls + f * facing,
-            (c + f) * (1.0 - facing) + w * (1.0 - 2.0 * from_walls),
+            (c + f) * to_walls + w * (1.0 - 2.0 * from_walls),
             w * from_walls + c * facing,
         ];
-        walls += now[1];
+        sum += now[1];
     }
-    walls / (8.0 * (a + b))
+    sum
 }
 
 #[test]

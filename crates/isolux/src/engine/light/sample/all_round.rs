@@ -12,7 +12,7 @@ use super::measured::{Goal, Measured, REPLICATES, STUDENT_FACTOR, mean};
 use crate::engine::ray::{Dice, Sensor, SurfacePoint, mean_and_variance};
 use crate::sampling::Sequence;
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Point};
+use isolux_geometry::Point;
 
 /// Planes, and places of discs and luminous areas, of one replicate: those of the trial, the fewest, and the most.
 const PLANES: [u32; 2] = [16, 1024];
@@ -73,7 +73,7 @@ impl Lighting<'_> {
         (at, sensor): (&SurfacePoint, &Sensor),
     ) -> Rgb {
         let Some(towards) = target.towards(at.point).direction() else { return Rgb::BLACK };
-        let at = facing(at, towards);
+        let at = at.facing(towards.to_normal());
         let place = match target {
             Target::Point(place) => place,
             Target::Infinity(_) => Point::ORIGIN,
@@ -104,15 +104,8 @@ impl Lighting<'_> {
             return self.disc_all_round(disc, (at, sensor), planes as usize, dice);
         }
         mean(planes as usize, dice, |dice| {
-            let normal = sensor.normal(dice.pair());
-            let at = SurfacePoint { geometric: normal, shading: normal, ..*at };
+            let at = at.facing(sensor.normal(dice.pair()));
             self.lit_by(source, &at, 1, dice)
         })
     }
-}
-
-/// The place, as a plane that faces a direction.
-fn facing(at: &SurfacePoint, towards: Direction) -> SurfacePoint {
-    let normal = towards.to_normal();
-    SurfacePoint { geometric: normal, shading: normal, ..*at }
 }

@@ -134,6 +134,7 @@ impl Lighting<'_> {
         };
         disc.source.colour * mean(samples, dice, one) * (disc.illuminance_lx / disc.facing())
     }
+
     /// Mean illuminance of a sensor from a disc, by `samples` shadow rays to places of it.
     pub(super) fn disc_all_round(
         &self,
@@ -144,8 +145,7 @@ impl Lighting<'_> {
     ) -> Rgb {
         let one = |dice: &mut Dice| {
             let towards = on_disc(disc.middle, disc.half_angle_rad, dice.pair());
-            let normal = towards.to_normal();
-            let at = SurfacePoint { geometric: normal, shading: normal, ..*at };
+            let at = at.facing(towards.to_normal());
             let share = self.visibility(&disc.source.chain, &at, Target::Infinity(towards), None);
             share * sensor.share(towards)
         };
