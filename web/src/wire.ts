@@ -46,7 +46,7 @@ export interface Luminaire {
   group: number;
   /** Chromaticity, luminance 1. */
   colour: Vec3;
-  kind: 'point' | 'directional';
+  kind: 'point' | 'directional' | 'sky';
   /** Where it is; of parallel light nothing. */
   position: Vec3 | null;
   /** Where parallel light goes, or the way that the luminaire faces. */
@@ -69,6 +69,29 @@ export interface Solid {
   rows: number;
   columns: number;
   values: number[];
+}
+
+/** What is seen beyond the scene: luminances in codes of RGB9E5 (u32), rows from the zenith, columns from north by east. */
+export interface Sky {
+  /** Index into `groups`. */
+  group: number;
+  width: number;
+  height: number;
+  codes: Section;
+  /** Directions of its frame in the scene. */
+  east: Vec3;
+  north: Vec3;
+  zenith: Vec3;
+}
+
+/** A disc infinitely far away. */
+export interface Sun {
+  /** Index into `groups`. */
+  group: number;
+  towards: Vec3;
+  /** Of the angle from its middle to its rim. */
+  cosine: number;
+  luminance_cd_m2: Vec3;
 }
 
 export interface Camera {
@@ -110,6 +133,8 @@ export interface SceneHeader {
   textures: Texture[];
   luminaires: Luminaire[];
   solids: Solid[];
+  sky: Sky | null;
+  sun: Sun | null;
   groups: string[];
   cameras: Camera[];
   /** Lines of text about the map: `method`, `error`, `seed` and so on, as `isolux info` has them. */

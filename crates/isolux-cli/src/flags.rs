@@ -187,6 +187,8 @@ pub(crate) enum RoomKind {
     Office,
     /// Luminous panels alone
     Empty,
+    /// Desks, a cupboard and a glazed window to the south, below an overcast sky; no lamps
+    Daylit,
 }
 
 #[derive(Debug, Args)]

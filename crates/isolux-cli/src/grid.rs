@@ -3,8 +3,9 @@
 mod asked;
 pub(crate) mod choice;
 pub(crate) mod decide;
-mod emergency;
+pub(crate) mod emergency;
 mod figures;
+mod luminance;
 mod modelling;
 pub(crate) mod picture;
 mod report;
@@ -14,7 +15,7 @@ mod rows;
 mod warnings;
 
 use crate::failure::{Failure, Outcome};
-use crate::flags::GridFlags;
+use crate::flags::{GridFlags, QuantityName};
 use crate::maintained::Maintained;
 use crate::output::OutputPath;
 use crate::{map_file, source};
@@ -38,6 +39,14 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     let (scene, map) = opened(flags)?;
     if let Some(kind) = flags.emergency {
         return emergency::run((kind, flags), &scene, json);
+    }
+    if flags.quantity == QuantityName::Luminance {
+        return luminances(flags, (csv, json), (&scene, map));
+    }
+    if flags.eye.is_some() {
+        return Err(Failure::bad_input(
+            "--eye: only luminances are seen by an eye; leave it out or add --quantity luminance",
+        ));
     }
     let asked = Asked::of(flags, &scene)?;
     let source = (flags.source.as_path(), &scene);
@@ -70,10 +79,7 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     let judged = requirement::judge(&results, (&scene, &reader))?;
     warn(&results, &map, light);
     if let Some(csv) = csv {
-        csv.write(
-            rows(&results, &asked, flags.digits.map_or(Digits::ByError, Digits::Significant))
-                .as_bytes(),
-        )?;
+        csv.write(rows(&results, &asked, digits(flags)).as_bytes())?;
     }
     if let (Some(output), [result]) = (picture, &results[..]) {
         picture::write(&output, &scene, (result, &asked))?;
@@ -82,6 +88,34 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     found.tell(&scene, json)?;
     let all_met = judged.iter().all(|judged| judged.verdict == Verdict::Met);
     Ok(if all_met { outcome } else { Outcome::CheckFailed })
+}
+
+/// Luminances as an eye sees them.
+fn luminances(
+    flags: &GridFlags,
+    (csv, json): (Option<OutputPath>, bool),
+    (scene, map): (&Scene, Option<IlluminationMap>),
+) -> Result<Outcome, Failure> {
+    let eye = luminance::eye(flags)?;
+    let source = (flags.source.as_path(), scene);
+    let grids = requirement::grids((&flags.grid, false), &flags.required, source)?;
+    let (map, outcome) = match map {
+        Some(map) => (map, Outcome::Done),
+        None => decide::decided(
+            (scene, &flags.source),
+            flags.required.accuracy,
+            (&grids, &|_| Ok(Vec::new())),
+        )?,
+    };
+    map_file::warn_of_unknown_error(&flags.source, &map);
+    let digits = digits(flags);
+    let request = luminance::Request { eye, grids: &grids, csv, digits };
+    luminance::tell(request, (scene, &map), json)?;
+    Ok(outcome)
+}
+
+fn digits(flags: &GridFlags) -> Digits {
+    flags.digits.map_or(Digits::ByError, Digits::Significant)
 }
 
 /// The scene, and its map where it is solved.

@@ -1,5 +1,7 @@
 //! Ctrl-C and termination while something is made that can be kept.
 
+pub(crate) mod signals;
+
 use crate::caller;
 use crate::failure::Failure;
 use crate::notes::{Note, note};
@@ -44,8 +46,8 @@ impl Interrupt {
         };
         // The handler may be called at once.
         stop.set_keeps(true);
-        ctrlc::set_handler(handler)
-            .map_err(|e| Failure::Refused(format!("cannot listen to Ctrl-C: {e}")))?;
+        signals::listen(handler)
+            .map_err(|e| Failure::Refused(format!("cannot listen to signals: {e}")))?;
         Ok(INSTALLED.get_or_init(|| Self(stop)).clone())
     }
 

@@ -25,10 +25,30 @@ const DESK_FLOOR_M: [f64; 2] = [2.4, 2.2];
 /// The distance of desks from walls, m.
 const FROM_WALL_M: f64 = 0.3;
 
+/// The wall left and right of a window, as a share of the width.
+const WINDOW_FROM: f64 = 0.1;
+/// The height of the wall below a window, and above it, m.
+const SILL_M: f64 = 0.9;
+const LINTEL_M: f64 = 0.3;
+
 /// What furniture is made of.
 const WOOD: &str = "[materials.wood]
 diffuse = [0.45, 0.36, 0.27]
 
+";
+
+const GLAZING: &str =
+    "[materials.glazing]                   # two panes as one; 0.70 at normal incidence
+glass = { ior = 1.52, thin = true, transmittance = 0.76 }
+";
+
+/// A dull day; what else there is as a comment.
+const SKY: &str = "
+# The window looks south: north is +y. A clear noon: type = \"clear\", sun = { azimuth_deg = 180, elevation_deg = 40 },
+# sun_normal_lx = 80000. A year of daylight: isolux daylight, with a weather file.
+[sky]
+type = \"overcast\"
+horizontal_lx = 10000
 ";
 
 /// Runs the subcommand.
@@ -58,16 +78,17 @@ struct Written {
 }
 
 /// The text of a scene with a room of this width, depth and height, m.
-fn room(kind: RoomKind, [width, depth, height]: [f64; 3]) -> String {
-    let mut furnished = String::new();
-    if kind == RoomKind::Office {
-        furniture(&mut furnished, [width, depth]);
-    }
-    let wood = if furnished.is_empty() { "" } else { WOOD };
+fn room(kind: RoomKind, size: [f64; 3]) -> String {
+    let [width, depth, height] = size;
+    let (title, first) = match kind {
+        RoomKind::Office => ("Office", format!("{WOOD}{}", panel())),
+        RoomKind::Empty => ("Room", panel()),
+        RoomKind::Daylit => ("Daylit room", format!("{WOOD}{GLAZING}")),
+    };
     let mut text = format!(
         "# A room of {width} m x {depth} m x {height} m: x is its width, y its depth, z up. Lengths are in metres.
 # All keys: docs/book/scenes.md. To see what there is: isolux check, isolux info.
-name = \"{}\"
+name = \"{title}\"
 
 [materials.walls]
 diffuse = 0.6
@@ -78,26 +99,82 @@ diffuse = 0.8
 [materials.floor]
 diffuse = 0.3
 
-{wood}[materials.panel]                     # a luminous surface: flux / (pi area)
-luminance_cd_m2 = {:.0}
-sided = \"one\"
+{first}"
+    );
+    if kind == RoomKind::Daylit {
+        daylit(&mut text, size);
+    } else {
+        closed(&mut text, size);
+        panels(&mut text, size);
+    }
+    if kind != RoomKind::Empty {
+        furniture(&mut text, [width, depth]);
+    }
+    finish(&mut text, kind, size);
+    text
+}
 
+fn panel() -> String {
+    let cd_m2 = PANEL_LM / (PI * PANEL_M * PANEL_M);
+    format!(
+        "[materials.panel]                     # a luminous surface: flux / (pi area)
+luminance_cd_m2 = {cd_m2:.0}
+sided = \"one\"
+"
+    )
+}
+
+fn closed(text: &mut String, [width, depth, height]: [f64; 3]) {
+    _ = write!(
+        text,
+        "
 [[geometry]]
 name = \"room\"
 box = {{ min = [0, 0, 0], max = [{width}, {depth}, {height}], inward = true }}
 material = \"walls\"
 materials = {{ z_min = \"floor\", z_max = \"ceiling\" }}
-",
-        match kind {
-            RoomKind::Office => "Office",
-            RoomKind::Empty => "Room",
-        },
-        PANEL_LM / (PI * PANEL_M * PANEL_M)
+"
     );
-    panels(&mut text, [width, depth, height]);
-    text += &furnished;
-    finish(&mut text, [width, depth, height]);
-    text
+}
+
+/// Walls with a window at y = 0, and what is outside.
+fn daylit(text: &mut String, [width, depth, height]: [f64; 3]) {
+    let (left, sill) = (WINDOW_FROM * width, SILL_M.min(0.35 * height));
+    let (right, head) = (width - left, height - LINTEL_M.min(0.1 * height));
+    let (floor, back, side) = ([0.0, depth, 0.0], [width, 0.0, 0.0], [0.0, 0.0, height]);
+    let of = |v: [f64; 3]| v.map(|x| format!("{x:.3}")).join(", ");
+    // A rectangle faces the way of u cross v: into the room.
+    for (name, corner, (u, v), material) in [
+        ("floor", [0.0; 3], (back, floor), "floor"),
+        ("ceiling", [0.0, 0.0, height], (floor, back), "ceiling"),
+        ("west wall", [0.0; 3], (floor, side), "walls"),
+        ("east wall", [width, 0.0, 0.0], (side, floor), "walls"),
+        ("north wall", [0.0, depth, 0.0], (back, side), "walls"),
+        ("parapet", [0.0; 3], ([0.0, 0.0, sill], back), "walls"),
+        ("lintel", [0.0, 0.0, head], ([0.0, 0.0, height - head], back), "walls"),
+        (
+            "left of the window",
+            [0.0, 0.0, sill],
+            ([0.0, 0.0, head - sill], [left, 0.0, 0.0]),
+            "walls",
+        ),
+        ("right of it", [right, 0.0, sill], ([0.0, 0.0, head - sill], [left, 0.0, 0.0]), "walls"),
+        ("pane", [left, 0.0, sill], ([0.0, 0.0, head - sill], [right - left, 0.0, 0.0]), "glazing"),
+    ] {
+        _ = write!(
+            text,
+            "
+[[geometry]]
+name = \"{name}\"
+rectangle = {{ corner = [{}], u = [{}], v = [{}] }}
+material = \"{material}\"
+",
+            of(corner),
+            of(u),
+            of(v)
+        );
+    }
+    *text += SKY;
 }
 
 /// Rows of panels below the ceiling, as many as the illuminance takes.
@@ -170,9 +247,13 @@ material = \"wood\"
     );
 }
 
-/// A camera at the door and a grid over the working plane.
-fn finish(text: &mut String, [width, depth, height]: [f64; 3]) {
+/// A camera at the door, which is opposite of the window, and a grid over the working plane.
+fn finish(text: &mut String, kind: RoomKind, [width, depth, height]: [f64; 3]) {
     let eye = 1.6_f64.min(0.7 * height);
+    let (from_y, to_y) = match kind {
+        RoomKind::Daylit => (0.94 * depth, 0.0),
+        RoomKind::Office | RoomKind::Empty => (0.06 * depth, depth),
+    };
     let border = 0.5_f64.min(0.15 * width.min(depth));
     _ = write!(
         text,
@@ -191,9 +272,9 @@ u = [{:.3}, 0, 0]
 v = [0, {:.3}, 0]
 ",
         0.06 * width,
-        0.06 * depth,
+        from_y,
         0.7 * width,
-        depth,
+        to_y,
         0.3 * height,
         width - 2.0 * border,
         depth - 2.0 * border
@@ -214,6 +295,8 @@ mod tests {
             (RoomKind::Office, [30.0, 12.0, 3.2]),
             (RoomKind::Office, [1.0, 1.0, 1.0]),
             (RoomKind::Empty, [4.0, 4.0, 3.0]),
+            (RoomKind::Daylit, [6.0, 5.0, 2.8]),
+            (RoomKind::Daylit, [1.0, 1.0, 1.0]),
         ] {
             let path = folder.path().join("room.toml");
             std::fs::write(&path, room(kind, size)).unwrap();
@@ -222,6 +305,10 @@ mod tests {
             assert_eq!(parts.warnings, [], "{kind:?} {size:?}");
             let scene = Scene::assemble(parts.value).unwrap();
             assert_eq!(scene.cameras().len(), 1);
+            if kind == RoomKind::Daylit {
+                assert!(scene.gives_light() && scene.luminous_flux_lm() == 0.0, "{size:?}");
+                continue;
+            }
             let lm_a_m2 = scene.luminous_flux_lm() / (size[0] * size[1]);
             // Between half and twice the flux that the illuminance takes: panels are whole ones.
             assert!(

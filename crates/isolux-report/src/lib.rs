@@ -11,9 +11,9 @@ mod typst;
 mod words;
 
 pub use report::{
-    Area, Attachment, Budget, BudgetLine, Daylight, DaylightArea, Finding, Glare, Image, Luminaire,
-    LuminousBody, Maintenance, Observer, Project, Report, Requirement, Scene, Severity, Surface,
-    UncertainInput, View,
+    Area, Attachment, Budget, BudgetLine, Daylight, DaylightArea, Emergency, EmergencyCriterion,
+    EmergencyRequirement, Finding, Glare, Image, Luminaire, LuminousBody, Maintenance, Observer,
+    Project, Report, Requirement, Scene, Severity, Surface, UncertainInput, View,
 };
 pub use words::Language;
 

@@ -13,6 +13,8 @@ pub struct Report {
     pub scene: Scene,
     /// Calculation grids, with what is required of them.
     pub areas: Vec<Area>,
+    /// Emergency lighting, where grids are areas of it.
+    pub emergency: Option<Emergency>,
     /// Types of luminaires.
     pub luminaires: Vec<Luminaire>,
     /// A year of daylight, where one was asked for.
@@ -169,6 +171,49 @@ pub struct Requirement {
     pub verdict: Verdict,
     /// The probability that it holds.
     pub probability: f64,
+}
+
+/// Emergency lighting by EN 1838.
+#[derive(Clone, Debug)]
+pub struct Emergency {
+    /// Luminaires that are part of it.
+    pub luminaires: usize,
+    /// What has to hold on its areas.
+    pub requirements: Vec<EmergencyRequirement>,
+}
+
+/// Something that has to hold of emergency lighting, and what came of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EmergencyRequirement {
+    /// The grid.
+    pub area: String,
+    /// What is limited.
+    pub criterion: EmergencyCriterion,
+    /// The limit, lx or a ratio.
+    pub bound: f64,
+    /// What was found.
+    pub figure: Figure,
+    /// Whether it holds at 95 %.
+    pub verdict: Verdict,
+}
+
+/// What is limited of emergency lighting.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EmergencyCriterion {
+    /// Least illuminance on the centre line of an escape route, lx.
+    CentreLine,
+    /// Least illuminance in the middle half of an escape route, lx.
+    MiddleHalf,
+    /// Greatest over least illuminance on the centre line.
+    CentreLineSpread,
+    /// Least illuminance of an open area without its outer half metre, lx.
+    OpenArea,
+    /// Greatest over least illuminance there.
+    OpenAreaSpread,
+    /// Mean illuminance where something dangerous is to be ended, lx.
+    HighRiskMean,
+    /// Uniformity there.
+    HighRiskUniformity,
 }
 
 /// Luminaires of one type.

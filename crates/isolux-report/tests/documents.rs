@@ -3,9 +3,10 @@
 use isolux::map::{Figure, GridFigures, Verdict};
 use isolux::scene::{Condition, GridQuantity};
 use isolux_report::{
-    Area, Budget, BudgetLine, Daylight, DaylightArea, Finding, Glare, Image, Language, Luminaire,
-    LuminousBody, Maintenance, Observer, Project, Report, Requirement, Scene, Severity, Surface,
-    UncertainInput, View, html, typst,
+    Area, Budget, BudgetLine, Daylight, DaylightArea, Emergency, EmergencyCriterion,
+    EmergencyRequirement, Finding, Glare, Image, Language, Luminaire, LuminousBody, Maintenance,
+    Observer, Project, Report, Requirement, Scene, Severity, Surface, UncertainInput, View, html,
+    typst,
 };
 
 const HOSTILE: &str = "a \"b\" <script>alert(1)</script> & #panic(\"x\") \\ $x$ \u{1}";
@@ -91,6 +92,31 @@ fn year() -> Daylight {
     }
 }
 
+fn emergency() -> Emergency {
+    let of = |criterion, bound: f64, figure: Figure| EmergencyRequirement {
+        area: HOSTILE.into(),
+        criterion,
+        bound,
+        figure,
+        verdict: match criterion {
+            EmergencyCriterion::CentreLineSpread | EmergencyCriterion::OpenAreaSpread => {
+                figure.keeps_within(bound)
+            }
+            _ => figure.reaches(bound),
+        },
+    };
+    let requirements = vec![
+        of(EmergencyCriterion::CentreLine, 1.0, figure(1.53, 0.02)),
+        of(EmergencyCriterion::MiddleHalf, 0.5, Figure::exact(0.3)),
+        of(EmergencyCriterion::CentreLineSpread, 40.0, Figure::exact(f64::INFINITY)),
+        of(EmergencyCriterion::OpenArea, 0.5, Figure::exact(0.62)),
+        of(EmergencyCriterion::OpenAreaSpread, 40.0, Figure::exact(12.0)),
+        of(EmergencyCriterion::HighRiskMean, 50.0, figure(52.0, 3.0)),
+        of(EmergencyCriterion::HighRiskUniformity, 0.1, figure(0.4, 0.02)),
+    ];
+    Emergency { luminaires: 7, requirements }
+}
+
 fn report() -> Report {
     let pixel = include_bytes!("pixel.png").to_vec();
     Report {
@@ -111,6 +137,7 @@ fn report() -> Report {
             skies: vec!["sky".into()],
         },
         areas: vec![area(), Area { figures: None, plan: None, ..area() }],
+        emergency: Some(emergency()),
         luminaires: vec![Luminaire {
             name: "panel".into(),
             manufacturer: Some("Maker".into()),
@@ -181,8 +208,9 @@ fn html_is_well_formed_and_says_what_was_found() {
         let badges = |class: &str| {
             document.descendants().filter(|node| node.attribute("class") == Some(class)).count()
         };
-        // Two grids with a mean that is met, a uniformity that is undecided, a least value that is not met; the cover; daylight.
-        assert_eq!(badges("badge met"), 2 + 2);
+        // Two grids with a mean that is met, a uniformity that is undecided, a least value that is not met; the cover; daylight;
+        // four of emergency lighting.
+        assert_eq!(badges("badge met"), 2 + 2 + 4);
         assert!(badges("badge undecided") >= 3 && badges("badge not-met") >= 5);
     }
 }

@@ -150,6 +150,7 @@ function change_(parts: Parts, engine: Engine, gridMarks: GridMarks, change: Par
   if (isComparedAnew || (isMixed && ('dimming' in change || 'otherDimming' in change))) {
     worlds.forEach(({ model }) => model?.remix());
     parts.luminaires.dim(settings.dimming);
+    worlds[0]!.sky?.dim(settings.dimming);
   }
   gridMarks.update();
   if (isSplitOnly) engine.invalidate();

@@ -9,6 +9,7 @@ import { openLight } from './light-store';
 import type { Mix } from './mixing';
 import { Model } from './model';
 import { Refused } from './server';
+import { Sky } from './sky';
 import { openTextures, type SceneTexture } from './textures';
 import type { Uniforms } from './uniforms';
 import { comparedWith } from './whose';
@@ -17,6 +18,8 @@ export class World {
   readonly scene: SceneHeader;
   readonly root = new Scene();
   readonly #textures: SceneTexture[];
+  /** What is seen beyond the scene, if there is anything. */
+  readonly sky: Sky | null;
   model: Model | null = null;
   #retired: Model | null = null;
 
@@ -24,6 +27,8 @@ export class World {
     this.scene = container.header;
     this.root.matrixWorldAutoUpdate = false;
     this.#textures = openTextures(container, changed);
+    this.sky = this.scene.sky || this.scene.sun ? new Sky(container, uniforms) : null;
+    if (this.sky) this.root.add(this.sky.mesh);
   }
 
   /** Fetches the mesh with its light; false where there is none yet. The old one is shown until both are there. */
@@ -43,6 +48,7 @@ export class World {
     this.#retired = null;
     this.model?.dispose();
     this.#textures.forEach(({ value }) => value.dispose());
+    this.sky?.lose();
   }
 
   /** Makes the model anew of what is in memory. */

@@ -16,7 +16,9 @@ use std::path::PathBuf;
   isolux grid map.glb --height 1.2 --quantity cylindrical --require \"Em >= 50, U0 >= 0.1\"
   isolux grid map.glb --height 1.2 --quantity modelling -o modelling.png
   isolux grid map.glb --height 1.6 --quantity semi-cylindrical --facing 90
+  isolux grid map.glb --name board --quantity luminance --eye 2,5,1.2
   isolux grid room.toml --name corridor --emergency escape-route
+  isolux grid room.toml --emergency as-marked
 
 Grids are those of the scene ([[grid]] in scene.toml), or one given here. Points lie in the middles of cells as \
 EN 12464-1 spaces them and face the way of u cross v. Values are maintained illuminance: the initial one times \
@@ -44,6 +46,9 @@ pub(crate) struct GridFlags {
     /// The way that semi-cylindrical illuminance faces in plan, degrees: 0 for +x, 90 for +y (-z where y is up)
     #[arg(long, value_name = "DEG", value_parser = quantity::azimuth_deg, allow_hyphen_values = true)]
     pub facing: Option<f64>,
+    /// The eye that sees luminances, x,y,z, in metres and in the axes of the scene as written
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true)]
+    pub eye: Option<[f64; 3]>,
     /// Write all points with their values
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,
@@ -59,6 +64,8 @@ pub(crate) struct GridFlags {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum EmergencyName {
+    /// What each grid is marked as in scene.toml (`emergency`); others are left out
+    AsMarked,
     /// A strip of at most 2 m: 1 lx on the centre line, 0.5 lx in the middle half, 40:1 along the line
     EscapeRoute,
     /// 0.5 lx and 40:1 without the outer 0.5 m (anti-panic lighting)
@@ -80,4 +87,6 @@ pub(crate) enum QuantityName {
     Hemispherical,
     /// Ez over horizontal illuminance
     Modelling,
+    /// Of the surface that the grid lies on, as --eye sees it, cd/m2
+    Luminance,
 }

@@ -39,7 +39,7 @@ impl Asked {
             refuse_tasks(flags)?;
         }
         let sensor = match (name, facing_deg) {
-            (QuantityName::Illuminance, _) => None,
+            (QuantityName::Illuminance | QuantityName::Luminance, _) => None,
             (QuantityName::Cylindrical | QuantityName::Modelling, _) => Some(Sensor::cylinder(up)),
             (QuantityName::Hemispherical, _) => Some(Sensor::hemisphere(up)),
             (QuantityName::SemiCylindrical, Some(deg)) => {
@@ -90,6 +90,7 @@ impl Asked {
             QuantityName::SemiCylindrical => "semi-cylindrical",
             QuantityName::Hemispherical => "hemispherical",
             QuantityName::Modelling => "modelling",
+            QuantityName::Luminance => "luminance",
         }
     }
 
@@ -97,6 +98,7 @@ impl Asked {
     pub(super) fn title(&self) -> String {
         match (self.name, self.facing_deg) {
             (QuantityName::Illuminance, _) => "Illuminance".to_owned(),
+            (QuantityName::Luminance, _) => "Luminance".to_owned(),
             (QuantityName::Cylindrical | QuantityName::Modelling, _) => {
                 "Cylindrical illuminance".to_owned()
             }

@@ -8,11 +8,31 @@ use isolux::geometry::{Point, Vector};
 use isolux::scene::{CalculationGrid, Scene, UpAxis};
 use std::path::Path;
 
-/// The grids asked for: a working plane, a grid by its sides, or those of the scene.
+/// The grids asked for: a working plane, a grid by its sides, or those of the scene. Areas of emergency lighting have to be named.
 pub(crate) fn chosen(
     choice: &GridChoice,
     source: &Path,
     scene: &Scene,
+) -> Result<Vec<CalculationGrid>, Failure> {
+    if choice.is_empty() && !scene.grids().is_empty() && !has_ordinary(scene) {
+        return Err(Failure::bad_input(format!(
+            "{}: all grids are areas of emergency lighting; judge them by `isolux grid --emergency as-marked`, or name one",
+            source.display()
+        )));
+    }
+    chosen_of(choice, (source, scene), |grid| grid.emergency.is_none())
+}
+
+/// Whether some grid of a scene is no area of emergency lighting.
+pub(crate) fn has_ordinary(scene: &Scene) -> bool {
+    scene.grids().iter().any(|grid| grid.emergency.is_none())
+}
+
+/// The same; of grids of the scene that are not named, those that are meant.
+pub(crate) fn chosen_of(
+    choice: &GridChoice,
+    (source, scene): (&Path, &Scene),
+    is_meant: fn(&CalculationGrid) -> bool,
 ) -> Result<Vec<CalculationGrid>, Failure> {
     let mut grids = match (choice.height, choice.corner.zip(choice.u.zip(choice.v))) {
         (Some(height_m), _) => vec![working_plane(source, scene, height_m)?],
@@ -25,8 +45,9 @@ pub(crate) fn chosen(
             border_m: 0.0,
             maintenance_factor: 1.0,
             requirements: Vec::new(),
+            emergency: None,
         }],
-        (None, None) => named(choice, source, scene)?,
+        (None, None) => named(choice, (source, scene), is_meant)?,
     };
     for grid in &mut grids {
         grid.spacing_m = choice.spacing.or(grid.spacing_m);
@@ -43,8 +64,8 @@ pub(crate) fn chosen(
 
 fn named(
     choice: &GridChoice,
-    source: &Path,
-    scene: &Scene,
+    (source, scene): (&Path, &Scene),
+    is_meant: fn(&CalculationGrid) -> bool,
 ) -> Result<Vec<CalculationGrid>, Failure> {
     let all = scene.grids();
     let source = source.display();
@@ -54,7 +75,9 @@ fn named(
              [[grid]] to its scene.toml"
         )));
     }
-    let Some(name) = &choice.name else { return Ok(all.to_vec()) };
+    let Some(name) = &choice.name else {
+        return Ok(all.iter().filter(|grid| is_meant(grid)).cloned().collect());
+    };
     let found: Vec<CalculationGrid> = all.iter().filter(|g| g.name == *name).cloned().collect();
     if found.is_empty() {
         return Err(Failure::bad_input(format!(
@@ -107,5 +130,6 @@ fn working_plane(source: &Path, scene: &Scene, height_m: f64) -> Result<Calculat
         border_m: CalculationGrid::usual_border_m([u.length(), v.length()]),
         maintenance_factor: 1.0,
         requirements: Vec::new(),
+        emergency: None,
     })
 }

@@ -2,7 +2,7 @@
 
 mod points;
 
-use super::requirement;
+use super::{choice, requirement};
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{EmergencyName, GridFlags};
@@ -11,10 +11,12 @@ use crate::probe;
 use crate::shown::name;
 use isolux::engine::{ExactSettings, ProbePoint};
 use isolux::map::{Figure, GridFigures, Verdict};
-use isolux::scene::{CalculationGrid, Scene};
+use isolux::scene::{CalculationGrid, EmergencyArea, Scene};
 use isolux::units::to_error;
+use isolux_report::{EmergencyCriterion, EmergencyRequirement};
 use points::{OUTER_M, Strip};
 use serde::Serialize;
+use std::path::Path;
 
 /// On the centre line of an escape route (4.2.1), and of that in its middle half.
 const CENTRE_LX: f64 = 1.0;
@@ -33,8 +35,8 @@ const DIRECT: ExactSettings = ExactSettings { rays: 1, replicates: 16, seed: 1 }
 
 /// A condition on a grid, and what came of it.
 #[derive(Clone, Debug, Serialize)]
-struct Judged {
-    grid: String,
+struct Judged<'a> {
+    grid: &'a str,
     condition: String,
     #[serde(flatten)]
     figure: Figure,
@@ -49,22 +51,16 @@ struct Report<'a> {
     emergency_luminaires: usize,
     #[serde(flatten)]
     maintained: Maintained,
-    requirements: &'a [Judged],
+    requirements: &'a [Judged<'a>],
 }
 
-/// Runs the subcommand for one kind of area.
+/// Runs the subcommand for one kind of area, or for areas as they are marked.
 pub(super) fn run(
     (kind, flags): (EmergencyName, &GridFlags),
     scene: &Scene,
     json: bool,
 ) -> Result<Outcome, Failure> {
-    let lit = scene.in_emergency().ok_or_else(|| {
-        Failure::bad_input(format!(
-            "--emergency: no luminaire of {} is marked for it; give some `emergency = true` or `emergency_flux_share = 0.1`, \
-             and solve a map again",
-            flags.source.display()
-        ))
-    })?;
+    let lit = lit(scene, &flags.source)?;
     if flags.task.is_some() != (kind == EmergencyName::HighRisk) {
         return Err(Failure::bad_input(match flags.task {
             Some(_) => "--task: only --emergency high-risk asks for it; leave it out",
@@ -73,80 +69,131 @@ pub(super) fn run(
             }
         }));
     }
-    let mut judged = Vec::new();
     let source = (flags.source.as_path(), scene);
-    for grid in requirement::grids((&flags.grid, true), &flags.required, source)? {
-        judged.extend(on_grid((kind, flags), &lit, grid)?);
+    let mut grids = choice::chosen_of(&flags.grid, source, |_| true)?;
+    requirement::maintain(&mut grids, &flags.required, source)?;
+    let mut found = Vec::new();
+    for mut grid in grids {
+        grid.emergency = match kind {
+            EmergencyName::AsMarked => grid.emergency,
+            EmergencyName::EscapeRoute => Some(EmergencyArea::EscapeRoute),
+            EmergencyName::OpenArea => Some(EmergencyArea::OpenArea),
+            EmergencyName::HighRisk => {
+                Some(EmergencyArea::HighRisk { task_lx: flags.task.unwrap_or_default() })
+            }
+        };
+        found.extend(judged(&grid, (&lit, &flags.source))?);
     }
+    if found.is_empty() {
+        return Err(Failure::bad_input(format!(
+            "--emergency as-marked: no grid of {} is marked; give some `emergency = \"escape-route\"`, or name the kind here",
+            flags.source.display()
+        )));
+    }
+    let told: Vec<Judged<'_>> = found.iter().map(Judged::of).collect();
     if json {
         print_json(&Report {
             standard: "EN 1838:2013",
             kind,
             emergency_luminaires: lit.luminaires().len(),
             maintained: Maintained::of(&lit),
-            requirements: &judged,
+            requirements: &told,
         })?;
     } else {
-        print(&text(&judged))?;
+        print(&text(&told))?;
     }
-    let all_met = judged.iter().all(|judged| judged.verdict == Verdict::Met);
+    let all_met = found.iter().all(|of| of.verdict == Verdict::Met);
     Ok(if all_met { Outcome::Done } else { Outcome::CheckFailed })
 }
 
-fn on_grid(
-    (kind, flags): (EmergencyName, &GridFlags),
-    lit: &Scene,
-    grid: CalculationGrid,
-) -> Result<Vec<Judged>, Failure> {
-    let read = |points: &[ProbePoint]| figures((lit, flags), &grid, points);
-    let of =
-        |condition: &str, figure: Figure, verdict: fn(Figure, f64) -> Verdict, bound: f64| Judged {
-            grid: grid.name.clone(),
-            condition: condition.to_owned(),
-            figure,
-            verdict: verdict(figure, bound),
-        };
-    let least = |condition: &str, figure, bound| of(condition, figure, Figure::reaches, bound);
-    let spread = |where_is: &str, found: &GridFigures| {
-        let condition = format!("Emax/Emin <= 40 {where_is}");
-        of(&condition, inverse(found.diversity), Figure::keeps_within, MOST_DIVERSITY)
+/// The scene in an emergency.
+pub(crate) fn lit(scene: &Scene, source: &Path) -> Result<Scene, Failure> {
+    scene.in_emergency().ok_or_else(|| {
+        Failure::bad_input(format!(
+            "emergency lighting: no luminaire of {} is marked for it; give some `emergency = true` or `emergency_flux_share = 0.1`, \
+             and solve a map again",
+            source.display()
+        ))
+    })
+}
+
+/// What has to hold on a grid, if it is an area of emergency lighting.
+pub(crate) fn judged(
+    grid: &CalculationGrid,
+    (lit, source): (&Scene, &Path),
+) -> Result<Vec<EmergencyRequirement>, Failure> {
+    let read = |points: &[ProbePoint]| figures((lit, source), grid, points);
+    let of = |criterion, bound, figure: Figure, verdict| EmergencyRequirement {
+        area: grid.name.clone(),
+        criterion,
+        bound,
+        figure,
+        verdict,
     };
-    Ok(match kind {
-        EmergencyName::EscapeRoute => {
-            let strip = Strip::of(&grid, flags.grid.spacing).map_err(Failure::bad_input)?;
+    let least =
+        |criterion, figure: Figure, bound| of(criterion, bound, figure, figure.reaches(bound));
+    let spread = |criterion, found: &GridFigures| {
+        let figure = inverse(found.diversity);
+        of(criterion, MOST_DIVERSITY, figure, figure.keeps_within(MOST_DIVERSITY))
+    };
+    let Some(area) = grid.emergency else { return Ok(Vec::new()) };
+    Ok(match area {
+        EmergencyArea::EscapeRoute => {
+            let strip = Strip::of(grid).map_err(Failure::bad_input)?;
             let [centre, middle] = [read(&strip.centre)?, read(&strip.middle)?];
             vec![
-                least("Emin >= 1 lx on the centre line", centre.least_lx, CENTRE_LX),
-                least("Emin >= 0.5 lx in the middle half", middle.least_lx, MIDDLE_LX),
-                spread("on the centre line", &centre),
+                least(EmergencyCriterion::CentreLine, centre.least_lx, CENTRE_LX),
+                least(EmergencyCriterion::MiddleHalf, middle.least_lx, MIDDLE_LX),
+                spread(EmergencyCriterion::CentreLineSpread, &centre),
             ]
         }
-        EmergencyName::OpenArea => {
-            let found = read(&points::open_area(&grid).map_err(Failure::bad_input)?)?;
-            let core = format!("without the outer {OUTER_M} m");
+        EmergencyArea::OpenArea => {
+            let found = read(&points::open_area(grid).map_err(Failure::bad_input)?)?;
             vec![
-                least(&format!("Emin >= 0.5 lx {core}"), found.least_lx, OPEN_LX),
-                spread(&core, &found),
+                least(EmergencyCriterion::OpenArea, found.least_lx, OPEN_LX),
+                spread(EmergencyCriterion::OpenAreaSpread, &found),
             ]
         }
-        EmergencyName::HighRisk => {
-            let found = read(&points::all(&grid))?;
-            let bound_lx = (OF_TASK * flags.task.unwrap_or_default()).max(TASK_LX);
+        EmergencyArea::HighRisk { task_lx } => {
+            let found = read(&points::all(grid))?;
+            let bound_lx = (OF_TASK * task_lx).max(TASK_LX);
             vec![
-                least(&format!("Em >= {bound_lx} lx"), found.mean_lx, bound_lx),
-                least("U0 >= 0.1", found.uniformity, TASK_UNIFORMITY),
+                least(EmergencyCriterion::HighRiskMean, found.mean_lx, bound_lx),
+                least(EmergencyCriterion::HighRiskUniformity, found.uniformity, TASK_UNIFORMITY),
             ]
         }
     })
 }
 
+impl<'a> Judged<'a> {
+    fn of(of: &'a EmergencyRequirement) -> Self {
+        let EmergencyRequirement { area, criterion, bound, figure, verdict } = of;
+        let condition = match criterion {
+            EmergencyCriterion::CentreLine => format!("Emin >= {bound} lx on the centre line"),
+            EmergencyCriterion::MiddleHalf => format!("Emin >= {bound} lx in the middle half"),
+            EmergencyCriterion::CentreLineSpread => {
+                format!("Emax/Emin <= {bound} on the centre line")
+            }
+            EmergencyCriterion::OpenArea => {
+                format!("Emin >= {bound} lx without the outer {OUTER_M} m")
+            }
+            EmergencyCriterion::OpenAreaSpread => {
+                format!("Emax/Emin <= {bound} without the outer {OUTER_M} m")
+            }
+            EmergencyCriterion::HighRiskMean => format!("Em >= {bound} lx"),
+            EmergencyCriterion::HighRiskUniformity => format!("U0 >= {bound}"),
+        };
+        Self { grid: area, condition, figure: *figure, verdict: *verdict }
+    }
+}
+
 /// The figures of points; points inside of things are left out.
 fn figures(
-    (lit, flags): (&Scene, &GridFlags),
+    (lit, source): (&Scene, &Path),
     grid: &CalculationGrid,
     points: &[ProbePoint],
 ) -> Result<GridFigures, Failure> {
-    let values = probe::traced((lit, &flags.source), points, &DIRECT)?;
+    let values = probe::traced((lit, source), points, &DIRECT)?;
     GridFigures::of(grid, &values).ok_or_else(|| {
         let what = format!("grid `{}` lies outside of the room", name(&grid.name));
         Failure::bad_input(format!("{what}; put it on the floor"))
@@ -169,7 +216,7 @@ fn text(judged: &[Judged]) -> String {
             true => written(value),
             false => format!("{} ({} to {})", written(value), written(low), written(high)),
         };
-        vec![name(&of.grid), of.condition.clone(), found, of.verdict.text().to_owned()]
+        vec![name(of.grid), of.condition.clone(), found, of.verdict.text().to_owned()]
     };
     let rows: Vec<Vec<String>> = judged.iter().map(row).collect();
     let verdicts = table(&["grid", "EN 1838:2013", "found", "verdict"], &rows);

@@ -14,6 +14,11 @@ pub(super) fn lux(figure: Figure) -> String {
     interval(figure, rounded)
 }
 
+/// A luminance in cd/m2 with its interval.
+pub(super) fn cd_m2(figure: Figure) -> String {
+    interval(figure, rounded)
+}
+
 /// A ratio with its interval.
 pub(super) fn ratio(figure: Figure) -> String {
     interval(figure, part)

@@ -41,18 +41,25 @@ pub(crate) fn grids(
     required: &RequiredFlags,
     (source, scene): (&Path, &Scene),
 ) -> Result<Vec<CalculationGrid>, Failure> {
-    if let Some(factor) = required.maintenance_factor {
-        maintained::refuse_second(factor, scene, source)?;
-    }
     let mut grids = choice::chosen(choice, source, scene)?;
-    for grid in &mut grids {
-        grid.maintenance_factor = required.maintenance_factor.unwrap_or(grid.maintenance_factor);
-        if !is_illuminance {
-            grid.requirements.clear();
-        }
+    maintain(&mut grids, required, (source, scene))?;
+    if !is_illuminance {
+        grids.iter_mut().for_each(|grid| grid.requirements.clear());
     }
     add(&required.require, &mut grids)?;
     Ok(grids)
+}
+
+/// Gives grids the maintenance factor that is asked for.
+pub(super) fn maintain(
+    grids: &mut [CalculationGrid],
+    required: &RequiredFlags,
+    (source, scene): (&Path, &Scene),
+) -> Result<(), Failure> {
+    let Some(factor) = required.maintenance_factor else { return Ok(()) };
+    maintained::refuse_second(factor, scene, source)?;
+    grids.iter_mut().for_each(|grid| grid.maintenance_factor = factor);
+    Ok(())
 }
 
 /// Adds the requirements of `--require` to the grids that they are for: `desks: Em >= 500`, or without a name to all.

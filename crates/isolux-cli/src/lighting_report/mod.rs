@@ -9,17 +9,18 @@ mod year;
 use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{LanguageName, ReportFlags};
-use crate::grid::{decide, requirement};
+use crate::grid::{choice, decide, emergency, requirement};
 use crate::maintained::Maintained;
 use crate::origin::Extent;
 use crate::output::OutputPath;
 use crate::shown::name;
 use crate::{check, energy, map_file, source};
 use isolux::engine::{MapReader, reference_lx};
-use isolux::map::IlluminationMap;
+use isolux::map::{IlluminationMap, Verdict};
 use isolux::scene::{CalculationGrid, LuminaireKind, Scene, UpAxis};
-use isolux_report::{Finding, Language, Maintenance, Project, Report, Severity};
+use isolux_report::{Emergency, Finding, Language, Maintenance, Project, Report, Severity};
 use serde::Serialize;
+use std::path::Path;
 
 /// Files of reports.
 const ENDS: [&str; 2] = ["html", "pdf"];
@@ -100,7 +101,8 @@ impl Opened {
 
 /// The grids of the report: none of a scene without, unless something is asked of some.
 fn grids(flags: &ReportFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
-    if flags.grid.is_empty() && scene.grids().is_empty() && flags.required.require.is_empty() {
+    let has_none = flags.grid.is_empty() && !choice::has_ordinary(scene);
+    if has_none && flags.required.require.is_empty() {
         return Ok(Vec::new());
     }
     requirement::grids((&flags.grid, true), &flags.required, (&flags.source, scene))
@@ -126,6 +128,7 @@ fn report(flags: &ReportFlags, opened: &Opened, language: Language) -> Result<Re
         scene: facts_of(scene),
         areas,
         luminaires: fixtures::of(scene),
+        emergency: emergency(scene, &flags.source)?,
         daylight,
         glare,
         views,
@@ -136,6 +139,24 @@ fn report(flags: &ReportFlags, opened: &Opened, language: Language) -> Result<Re
         findings: findings.iter().map(finding).collect(),
         software: concat!("isolux ", env!("CARGO_PKG_VERSION")).to_owned(),
     })
+}
+
+/// What came of the areas of emergency lighting, if there are any.
+fn emergency(scene: &Scene, source: &Path) -> Result<Option<Emergency>, Failure> {
+    let areas: Vec<&CalculationGrid> =
+        scene.grids().iter().filter(|grid| grid.emergency.is_some()).collect();
+    if areas.is_empty() {
+        return Ok(None);
+    }
+    let lit = emergency::lit(scene, source)?;
+    let mut requirements = Vec::new();
+    for grid in areas {
+        requirements.extend(emergency::judged(grid, (&lit, source))?);
+    }
+    for of in &mut requirements {
+        of.area = name(&of.area);
+    }
+    Ok(Some(Emergency { luminaires: lit.luminaires().len(), requirements }))
 }
 
 fn project(flags: &ReportFlags, scene: &Scene) -> Project {
@@ -198,13 +219,14 @@ struct Told {
 
 impl Told {
     fn of(output: &OutputPath, report: &Report) -> Self {
-        let requirements = || report.areas.iter().flat_map(|area| &area.requirements);
-        let is_met = |of: &&isolux_report::Requirement| of.verdict == isolux::map::Verdict::Met;
+        let of_areas = report.areas.iter().flat_map(|area| &area.requirements).map(|of| of.verdict);
+        let of_emergency = report.emergency.iter().flat_map(|emergency| &emergency.requirements);
+        let verdicts: Vec<Verdict> = of_areas.chain(of_emergency.map(|of| of.verdict)).collect();
         Self {
             report: output.path().display().to_string(),
             grids: report.areas.len(),
-            requirements: requirements().count(),
-            met: requirements().filter(is_met).count(),
+            requirements: verdicts.len(),
+            met: verdicts.iter().filter(|verdict| **verdict == Verdict::Met).count(),
             pictures: report.views.len(),
         }
     }

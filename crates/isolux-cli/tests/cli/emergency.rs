@@ -117,3 +117,60 @@ fn what_cannot_be_judged_is_refused() {
         assert!(ran.err.contains(told), "{arguments:?}: {}", ran.err);
     }
 }
+
+/// A route and a machine that are marked, and a desk that is none of emergency lighting.
+const MARKED: &str = "[[grid]]\nname = \"way out\"\ncorner = [0, 1, 0]\nu = [10, 0, 0]\nv = [0, 2, 0]\nemergency = \"escape-route\"\n\
+    [[grid]]\nname = \"saw\"\ncorner = [4.5, 1.5, 0.8]\nu = [1, 0, 0]\nv = [0, 1, 0]\nemergency = \"high-risk\"\ntask_lx = 50\n";
+
+#[test]
+fn grids_that_are_marked_are_judged_as_marked_and_nowhere_else() {
+    let home = Home::new();
+    let lamps = [1.0, 5.0, 9.0].map(|x| lamp(x, 100.0, "emergency = true")).concat();
+    home.file("room.toml", CORRIDOR.to_owned() + MARKED + &lamps);
+    let ran = home.run(&["grid", "room.toml", "--emergency", "as-marked", "--json"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let json = ran.json();
+    let found: Vec<(&str, &str)> = json["requirements"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|of| (of["grid"].as_str().unwrap(), of["condition"].as_str().unwrap()))
+        .collect();
+    assert_eq!(found.len(), 5, "{found:?}");
+    assert!(found.contains(&("saw", "Em >= 15 lx")) && found[0].0 == "way out", "{found:?}");
+    // Maps keep the marks, and scenes that are written have them, too.
+    assert_eq!(home.run(&["solve", "room.toml", "-o", "map.glb", "--quality", "draft"]).code, 0);
+    let names = |source: &str| -> Vec<String> {
+        let json = home.run(&["grid", source, "--json"]).json();
+        let grids = json["grids"].as_array().unwrap().clone();
+        grids.iter().map(|grid| grid["name"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(names("map.glb"), ["route", "hall"]);
+    assert_eq!(home.run(&["scene", "map.glb", "-o", "again"]).code, 0);
+    assert_eq!(names("again/scene.toml"), ["route", "hall"]);
+    let again = home.run(&["grid", "again/scene.toml", "--emergency", "as-marked", "--json"]);
+    assert_eq!(again.json()["requirements"].as_array().unwrap().len(), 5, "{again:?}");
+    let report = home.run(&["report", "map.glb", "-o", "report.html", "--json"]);
+    assert_eq!((report.code, report.json()["met"].as_u64()), (0, Some(5)), "{report:?}");
+    let text = std::fs::read_to_string(home.path("report.html")).unwrap();
+    assert!(text.contains("Emergency lighting") && text.contains("on the centre line"));
+}
+
+#[test]
+fn wrong_marks_are_refused() {
+    for (more, words) in [
+        ("emergency = \"high-risk\"\n", "add task_lx"),
+        ("emergency = \"open-area\"\ntask_lx = 5\n", "no area of high risk"),
+        ("emergency = \"exit\"\n", "escape-route"),
+    ] {
+        let home = Home::new();
+        let lamp = lamp(5.0, 9.0, "emergency = true");
+        home.file("room.toml", CORRIDOR.to_owned() + more + &lamp);
+        let ran = home.run(&["grid", "room.toml", "--emergency", "as-marked"]);
+        assert!(ran.code == 2 && ran.err.contains(words), "{more}: {ran:?}");
+    }
+    let home = Home::new();
+    home.file("room.toml", CORRIDOR.to_owned() + &lamp(5.0, 9.0, "emergency = true"));
+    let ran = home.run(&["grid", "room.toml", "--emergency", "as-marked"]);
+    assert!(ran.code == 2 && ran.err.contains("no grid of"), "{ran:?}");
+}

@@ -250,3 +250,23 @@ fn an_interrupted_validation_tells_what_is_done() {
     assert_eq!(child.wait().unwrap().code(), Some(130), "{said}");
     assert!(said.contains("of 200 runs are done, and only they are reported"), "{said}");
 }
+
+/// Below `nohup` a run outlives its terminal.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_end_of_the_terminal_is_none_below_nohup() {
+    let home = Home::new();
+    let run = [&SOLVE[..], &["--progress", "json"]].concat();
+    let mut child = home.start_below_nohup(&run);
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let is_running = |line: String| line.contains("\"increments\"");
+    assert!(lines.by_ref().any(is_running));
+    let id = child.id().to_string();
+    let send = |signal: &str| Command::new("kill").args([signal, &id]).status().unwrap().success();
+    assert!(send("-HUP"));
+    assert!(lines.by_ref().any(is_running), "it goes on");
+    assert!(send("-INT"));
+    lines.for_each(drop);
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(home.names().contains(&"m.checkpoint".to_owned()), "{:?}", home.names());
+}

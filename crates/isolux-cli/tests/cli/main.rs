@@ -20,6 +20,7 @@ mod groups;
 mod interrupted;
 mod lightmaps;
 mod lint;
+mod luminances;
 mod parts;
 mod pictures;
 mod plans;

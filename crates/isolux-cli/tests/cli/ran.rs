@@ -59,6 +59,14 @@ impl Home {
     pub(crate) fn start(&self, arguments: &[&str]) -> std::process::Child {
         command(self.0.path(), arguments).stdin(Stdio::null()).spawn().unwrap()
     }
+
+    /// Starts the command below `nohup`.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn start_below_nohup(&self, arguments: &[&str]) -> std::process::Child {
+        let mut command = Command::new("nohup");
+        command.arg(env!("CARGO_BIN_EXE_isolux")).args(arguments).current_dir(self.0.path());
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+    }
 }
 
 fn command(folder: &Path, arguments: &[impl AsRef<OsStr>]) -> Command {

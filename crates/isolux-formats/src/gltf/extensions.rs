@@ -1,11 +1,13 @@
 //! Which extensions are understood.
 
 use super::notes::{Flaw, Notes};
+use super::surroundings;
 use gltf_json::Root;
 
 /// Read in full, or ignored with a warning where they are met.
 const KNOWN: &[&str] = &[
     "EXT_lights_ies",
+    surroundings::NAME,
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",

@@ -36,6 +36,7 @@ mod shown;
 mod skin;
 mod specular_gloss;
 mod surfaces;
+mod surroundings;
 mod texcoord;
 mod thinned;
 mod topology;
@@ -132,7 +133,8 @@ fn resolve(
             "if it was exported in another unit, scale its root node, or set the unit at the export",
         ));
     }
-    let luminaires = luminaires::luminaires(document, placed, notes);
+    let mut luminaires = luminaires::luminaires(document, placed, notes);
+    luminaires.extend(surroundings::surroundings(document, &mut surfaces, notes));
     let cameras = cameras::cameras(document, placed, notes);
     let (materials, textures) = surfaces.into_parts();
     let parts = SceneParts {

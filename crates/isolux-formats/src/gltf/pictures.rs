@@ -3,6 +3,7 @@
 use super::buffers::Document;
 use super::limits;
 use super::notes::{Flaw, no_such};
+use crate::srgb;
 use image::{DynamicImage, GenericImageView, ImageReader};
 use isolux::scene::Texture;
 use isolux::units::Rgb;
@@ -19,6 +20,36 @@ pub(super) struct Means {
     pub(super) data: [f64; 3],
     /// Of the fourth channel, 1 where there is none.
     pub(super) alpha: f64,
+}
+
+/// Largest face of a cube of surroundings that is kept: a third of a degree a pixel.
+const KEPT_SIDE: u32 = 256;
+
+/// A square picture of light, linear Rec. 709, row by row from the top.
+pub(super) struct Face {
+    pub(super) side: u32,
+    pub(super) rgb: Vec<[f32; 3]>,
+}
+
+impl Face {
+    /// The pixel at a place, in shares of the side from the left and from the top.
+    pub(super) fn at(&self, place: [f64; 2]) -> [f64; 3] {
+        let [x, y] = place.map(|share| ((share * f64::from(self.side)) as u32).min(self.side - 1));
+        self.rgb[(y * self.side + x) as usize].map(f64::from)
+    }
+
+    /// Half as wide, each pixel the mean of four.
+    fn halved(&self) -> Self {
+        let side = self.side / 2;
+        let pixel = |x: u32, y: u32| self.rgb[(y * self.side + x) as usize];
+        let mean = |x: u32, y: u32| {
+            let four =
+                [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| pixel(2 * x + dx, 2 * y + dy));
+            [0, 1, 2].map(|k| four.iter().map(|rgb| rgb[k]).sum::<f32>() / 4.0)
+        };
+        let rgb = (0..side * side).map(|at| mean(at % side, at / side)).collect();
+        Self { side, rgb }
+    }
 }
 
 /// Pictures met so far; each is decoded once, or twice if first only its mean was asked for.
@@ -98,6 +129,22 @@ impl<'a> Pictures<'a> {
         self.means_of_image[&image].clone()
     }
 
+    /// A face of a cube of surroundings, by the index of its image.
+    pub(super) fn face(&mut self, image: usize) -> Result<Face, Flaw> {
+        let images = self.document.root.images.len();
+        if image >= images {
+            return Err(no_such("images", image, images));
+        }
+        let read = self.bytes(image).and_then(|bytes| {
+            self.bytes_left = self.bytes_left.saturating_sub(bytes.len() as u64);
+            opened(&bytes, self.pixels_left)
+        });
+        let picture =
+            read.and_then(face).map_err(|flaw| flaw.rooted(format!("images[{image}]")))?;
+        self.pixels_left -= u64::from(picture.side) * u64::from(picture.side);
+        Ok(kept(picture))
+    }
+
     pub(super) fn into_textures(self) -> Vec<Texture> {
         self.textures
     }
@@ -162,6 +209,15 @@ impl<'a> Pictures<'a> {
 
 /// PNG, JPEG or WebP to sRGB bytes, and the mean of alpha; what is transparent is taken as opaque.
 fn decode(bytes: &[u8], pixels_left: u64) -> Result<(Texture, f64), Flaw> {
+    let picture = opened(bytes, pixels_left)?;
+    let alpha = if picture.color().has_alpha() { mean_alpha(&picture) } else { 1.0 };
+    let picture = picture.into_rgb8();
+    let (width, height) = picture.dimensions();
+    Ok((Texture { width, height, srgb: picture.into_raw() }, alpha))
+}
+
+/// PNG, JPEG or WebP within limits.
+fn opened(bytes: &[u8], pixels_left: u64) -> Result<DynamicImage, Flaw> {
     let broken = |error: image::ImageError| {
         Flaw::new(format!("the picture cannot be read: {error}"), "save it as PNG, JPEG or WebP")
     };
@@ -181,11 +237,30 @@ fn decode(bytes: &[u8], pixels_left: u64) -> Result<(Texture, f64), Flaw> {
         );
         return Err(Flaw::new(what, remedy));
     }
-    let picture = reader()?.decode().map_err(broken)?;
-    let alpha = if picture.color().has_alpha() { mean_alpha(&picture) } else { 1.0 };
-    let picture = picture.into_rgb8();
-    let (width, height) = picture.dimensions();
-    Ok((Texture { width, height, srgb: picture.into_raw() }, alpha))
+    reader()?.decode().map_err(broken)
+}
+
+/// The light of a picture: one with alpha is packed as RGBD, colours of sRGB to be divided by alpha.
+fn face(picture: DynamicImage) -> Result<Face, Flaw> {
+    let (side, height) = (picture.width(), picture.height());
+    if side != height || !side.is_power_of_two() {
+        let what = format!("a face of {side} x {height} pixels");
+        return Err(Flaw::new(what, "faces of a cube are square, with a power of two of pixels"));
+    }
+    let light = |pixel: &image::Rgba<u8>| {
+        let [r, g, b, alpha] = pixel.0;
+        let alpha = f64::from(alpha.max(1)) / 255.0;
+        [r, g, b].map(|code| (srgb::linear(f64::from(code) / 255.0) / alpha) as f32)
+    };
+    let rgb = picture.into_rgba8().pixels().map(light).collect();
+    Ok(Face { side, rgb })
+}
+
+fn kept(mut face: Face) -> Face {
+    while face.side > KEPT_SIDE {
+        face = face.halved();
+    }
+    face
 }
 
 fn mean_alpha(picture: &DynamicImage) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::buffers::Document;
 use super::notes::{Flaw, Notes, no_such};
-use super::pictures::Pictures;
+use super::pictures::{Face, Pictures};
 use super::reading::Reading;
 use super::texcoord::TexCoord;
 use isolux::scene::{Body, Material, Texture};
@@ -75,6 +75,11 @@ impl<'a> Surfaces<'a> {
         let made = self.make(index, (tint, glow), notes);
         self.known.insert(key, made.clone());
         made
+    }
+
+    /// A face of a cube of surroundings, by the index of its image.
+    pub(super) fn face(&mut self, image: usize) -> Result<Face, Flaw> {
+        self.pictures.face(image)
     }
 
     pub(super) fn into_parts(self) -> (Vec<Material>, Vec<Texture>) {

@@ -361,6 +361,17 @@ pub(super) struct GridRecord {
     pub(super) spacing: Option<Positive>,
     pub(super) border: Option<NonNegative>,
     pub(super) maintenance_factor: Option<Positive>,
+    pub(super) emergency: Option<EmergencyRecord>,
+    pub(super) task_lx: Option<Positive>,
+}
+
+/// What area of emergency lighting a grid is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum EmergencyRecord {
+    EscapeRoute,
+    OpenArea,
+    HighRisk,
 }
 
 #[derive(Debug, Deserialize)]

@@ -13,6 +13,7 @@ mod origin;
 mod planes;
 mod record;
 mod scene;
+mod sky;
 
 pub use html::{Embedded, Page, embed};
 pub use light::Light;

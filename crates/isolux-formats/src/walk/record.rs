@@ -19,6 +19,8 @@ pub(super) struct SceneHeader<'a> {
     pub(super) textures: Vec<TextureRecord>,
     pub(super) luminaires: Vec<LuminaireRecord<'a>>,
     pub(super) solids: Vec<Solid>,
+    pub(super) sky: Option<SkyRecord>,
+    pub(super) sun: Option<SunRecord>,
     pub(super) groups: &'a [String],
     pub(super) cameras: Vec<CameraRecord<'a>>,
     pub(super) about: &'a [(String, String)],
@@ -78,6 +80,28 @@ pub(super) struct Solid {
     pub(super) rows: usize,
     pub(super) columns: usize,
     pub(super) values: Vec<f32>,
+}
+
+/// A picture all around: rows from the zenith, columns from north by east.
+#[derive(Serialize)]
+pub(super) struct SkyRecord {
+    pub(super) group: u32,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) codes: Section,
+    pub(super) east: [f64; 3],
+    pub(super) north: [f64; 3],
+    pub(super) zenith: [f64; 3],
+}
+
+/// A disc.
+#[derive(Serialize)]
+pub(super) struct SunRecord {
+    pub(super) group: u32,
+    pub(super) towards: [f64; 3],
+    /// Of the angle from its middle to its rim.
+    pub(super) cosine: f64,
+    pub(super) luminance_cd_m2: Rgb,
 }
 
 #[derive(Serialize)]

@@ -7,6 +7,7 @@ use super::record::{
     Bounds, CameraRecord, ColourMapRecord, FinishRecord, Limits, SceneHeader, Steps, TextureRecord,
     ToneRecord,
 };
+use super::sky;
 use crate::map_glb::images;
 use isolux::geometry::Vector;
 use isolux::scene::{Body, Camera, Finish, Material, Scene, Texture};
@@ -74,6 +75,8 @@ pub fn scene(scene: &Scene, told: &Told) -> Vec<u8> {
         textures,
         luminaires,
         solids,
+        sky: sky::sky(scene, &mut sections),
+        sun: sky::sun(scene),
         groups: scene.groups(),
         cameras: cameras(scene),
         about: &told.about,

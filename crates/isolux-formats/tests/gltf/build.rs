@@ -151,3 +151,12 @@ pub(crate) fn png(pixels: &[[u8; 3]]) -> Vec<u8> {
     picture.write_to(&mut out, image::ImageFormat::Png).unwrap();
     out.into_inner()
 }
+
+/// A PNG with alpha, as wide as is said.
+pub(crate) fn png_rgba(width: u32, pixels: &[[u8; 4]]) -> Vec<u8> {
+    let height = pixels.len() as u32 / width;
+    let picture = image::RgbaImage::from_raw(width, height, pixels.concat()).unwrap();
+    let mut out = std::io::Cursor::new(Vec::new());
+    picture.write_to(&mut out, image::ImageFormat::Png).unwrap();
+    out.into_inner()
+}

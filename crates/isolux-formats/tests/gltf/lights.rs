@@ -1,6 +1,6 @@
-//! Luminaires of KHR_lights_punctual and EXT_lights_ies.
+//! Luminaires of KHR_lights_punctual and EXT_lights_ies, surroundings of EXT_lights_image_based.
 
-use crate::build::{File, assert_warns};
+use crate::build::{File, assert_warns, png_rgba};
 use isolux::geometry::{Point, Vector};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Luminaire, LuminaireKind, Scene};
@@ -249,4 +249,80 @@ fn ies_profiles_refused() {
         assert!(problems.0[0].place.starts_with("extensions.EXT_lights_ies.lights[0]"));
         assert!(problems.0[0].what.contains(words), "{problems}");
     }
+}
+
+/// Six faces of one pixel: black but for +x, which is twice as bright as white, and -y, which is red.
+fn surrounded(more: Value) -> File {
+    let mut file = File::triangle();
+    let mut images = Vec::new();
+    for rgba in [[255, 255, 255, 128], [0; 4], [0; 4], [255, 0, 0, 255], [0; 4], [0; 4]] {
+        images
+            .push(json!({"bufferView": file.view(&png_rgba(1, &[rgba])), "mimeType": "image/png"}));
+    }
+    file.json["images"] = json!(images);
+    let mut light = json!({
+        "irradianceCoefficients": [[0, 0, 0]], "specularImageSize": 1, "specularImages": [[0, 1, 2, 3, 4, 5]],
+    });
+    for (key, value) in more.as_object().unwrap() {
+        light[key] = value.clone();
+    }
+    file.json["extensionsUsed"] = json!(["EXT_lights_image_based"]);
+    file.json["extensions"] = json!({"EXT_lights_image_based": {"lights": [light]}});
+    file.json["scenes"][0]["extensions"] = json!({"EXT_lights_image_based": {"light": 0}});
+    file
+}
+
+/// What is seen in a direction of the scene, cd/m2.
+fn seen(of: &Luminaire, towards: [f64; 3]) -> f64 {
+    let LuminaireKind::Sky { world_from_sky, sky } = &of.kind else { panic!("{of:?}") };
+    let sky_from_world = world_from_sky.inverse().unwrap();
+    let towards = sky_from_world.vector(towards.into()).direction().unwrap();
+    sky.luminance_cd_m2(towards).luminance()
+}
+
+#[test]
+fn cubes_of_pictures_are_surroundings() {
+    let file = surrounded(json!({"intensity": 50, "name": "street"}));
+    let read = |file: &File| file.load().value.luminaires.remove(0);
+    let found = read(&file);
+    assert_eq!(found.name, "street");
+    // RGBD: 255 over 128. Pictures are single precision.
+    let bright = 50.0 * 255.0 / 128.0;
+    let red = 50.0 * Rgb::new(1.0, 0.0, 0.0).luminance();
+    for (towards, expected) in [
+        ([1.0, 0.0, 0.0], bright),
+        ([1.0, 0.5, -0.5], bright),
+        ([-1.0, 0.0, 0.0], 0.0),
+        ([0.2, -1.0, 0.3], red),
+        ([0.0, 1.0, 0.0], 0.0),
+    ] {
+        let found = seen(&found, towards);
+        assert!((found - expected).abs() <= 1e-6 * bright, "{towards:?}: {found}");
+    }
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let turned = read(&surrounded(json!({"rotation": [0, half, 0, half]})));
+    // A quarter turn about y takes +x to -z.
+    assert!(seen(&turned, [0.0, 0.0, -1.0]) > 1.9 && seen(&turned, [1.0, 0.0, 0.0]) == 0.0);
+    assert_warns(&file.load(), "EXT_lights_image_based", "cd/m2");
+}
+
+#[test]
+fn odd_surroundings_are_refused() {
+    for (more, place, words) in [
+        (json!({"rotation": [0, 0, 0, 0]}), "rotation", "no rotation"),
+        (json!({"intensity": -1}), "intensity", "no brightness"),
+        (json!({"specularImages": []}), "specularImages", "no pictures"),
+        (json!({"specularImages": [[0, 1, 2, 3, 4, 9]]}), "specularImages[0][5]", "images[9]"),
+        (json!({"specularImages": [[0, 1]]}), "lights[0]", "length"),
+    ] {
+        let problems = surrounded(more.clone()).read().unwrap_err();
+        let told = problems.to_string();
+        assert!(told.contains(place) && told.contains(words), "{more}: {told}");
+    }
+    let mut nothing = surrounded(json!({}));
+    nothing.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = json!(3);
+    assert!(nothing.read().unwrap_err().to_string().contains("lights[3]"));
+    let mut unused = surrounded(json!({}));
+    unused.json["scenes"][0] = json!({"nodes": [0]});
+    assert_eq!(unused.parts().luminaires, []);
 }

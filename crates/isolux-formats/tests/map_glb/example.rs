@@ -48,6 +48,7 @@ pub(crate) fn parts() -> SceneParts {
             border_m: 0.05,
             maintenance_factor: 0.8,
             requirements: vec![isolux_formats::requirement("Em >= 500").unwrap()],
+            emergency: None,
         }],
     }
 }

@@ -6,9 +6,12 @@ mod container;
 mod lit;
 
 use container::Container;
-use isolux::geometry::{Normal, Point};
+use isolux::geometry::{Direction, Normal, Point};
 use isolux::map::{IlluminationMap, VertexLight};
-use isolux::scene::{Finish, Material, Scene, SceneParts, Shape};
+use isolux::photometry::{GeneralSky, Sky};
+use isolux::scene::{
+    Finish, Fitting, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape, world_from_sky,
+};
 use isolux::units::Rgb;
 use isolux_formats::walk::{self, Embedded, Light, Mesh, Page, Told};
 
@@ -202,4 +205,39 @@ fn data_do_not_end_the_script_they_lie_in() {
     assert_eq!(html.matches("</script>").count(), 5, "{html}");
     assert!(html.starts_with("<html><script id=\"isolux-hello\"") && html.ends_with("<body>"));
     assert!(walk::embed(Page("<html>"), hello, &[]).is_none());
+}
+
+#[test]
+fn skies_are_pictures_and_the_sun_is_a_disc() {
+    let mut parts = sheet(1).to_parts();
+    let far =
+        |name: &str, kind| Luminaire { name: name.into(), group: 0, colour: Rgb::WHITE, kind };
+    let sky = Sky::General { sky: GeneralSky::uniform(1000.0), ground_cd_m2: 100.0 };
+    let world_from_sky = world_from_sky(parts.up, 0.0);
+    let sun = LuminaireKind::Directional {
+        direction: -Direction::Z,
+        illuminance_lx: 50_000.0,
+        half_angle_rad: 0.1,
+    };
+    parts.luminaires =
+        vec![far("sky", LuminaireKind::Sky { world_from_sky, sky }), far("sun", sun)];
+    parts.fittings = vec![Fitting::default(); 2];
+    let scene = Scene::assemble(parts).unwrap();
+    let read = |scene: &Scene| Container::read(&walk::scene(scene, &told()));
+    let told = read(&scene);
+    let sky = &told.header["sky"];
+    let [width, height] = ["width", "height"].map(|of| sky[of].as_u64().unwrap() as usize);
+    let seen = told.colours(&sky["codes"]);
+    assert_eq!(seen.len(), width * height);
+    for (at, expected) in [(0, 1000.0), (seen.len() / 2 - 1, 1000.0), (seen.len() - 1, 100.0)] {
+        let found = luminance(seen[at]);
+        assert!((found / expected - 1.0).abs() < LIGHT, "{at}: {found}");
+    }
+    let (sun, sine) = (&told.header["sun"], 0.1_f64.sin());
+    assert_eq!(sun["towards"], serde_json::json!([0.0, 0.0, 1.0]));
+    let cd_m2 = sun["luminance_cd_m2"][0].as_f64().unwrap();
+    let expected = 50_000.0 / (std::f64::consts::PI * sine * sine);
+    assert!((cd_m2 / expected - 1.0).abs() < 1e-12, "{cd_m2}");
+    let none = read(&sheet(1));
+    assert!(none.header["sky"].is_null() && none.header["sun"].is_null());
 }

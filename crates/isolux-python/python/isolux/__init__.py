@@ -18,6 +18,7 @@ from isolux import parts
 from isolux._arguments import checked
 from isolux._builder import Luminaire
 from isolux._call import Path, command
+from isolux._daylight import DaylightGrid
 from isolux._errors import Defect, Error, InputError, IsoluxWarning, Problem, RefusedError
 from isolux._grid import Figure, Grid
 from isolux._map import Map, mix, open_map
@@ -30,6 +31,7 @@ __version__ = _version("isolux")
 
 __all__ = [
     "READING",
+    "DaylightGrid",
     "Defect",
     "Error",
     "Figure",

@@ -50,6 +50,11 @@ def _is_instance(name: str) -> Callable[[Any], bool]:
     )
 
 
+def _are_text(value: Any) -> bool:
+    is_list = isinstance(value, Sequence) and not isinstance(value, str)
+    return is_list and all(isinstance(part, str) for part in value)
+
+
 def _are_bytes(value: Any) -> bool:
     return isinstance(value, Sequence) and all(isinstance(part, bytes) for part in value)
 
@@ -66,7 +71,11 @@ _KINDS = {
     "os.PathLike[str]": _PATH,
     "Point": Kind("three numbers, (x, y, z)", lambda value: _are_numbers(value, shape=(3,))),
     "Sequence[float]": Kind("a list of numbers", lambda value: _are_numbers(value, shape=None)),
+    "tuple[int, int]": Kind("two whole numbers", lambda value: _are_numbers(value, "iu", (2,))),
     "tuple[float, float]": Kind("two numbers", lambda value: _are_numbers(value, shape=(2,))),
+    "Sequence[str]": Kind("a list of text", _are_text),
+    "Mapping[str, Any]": Kind("a dict", lambda value: isinstance(value, Mapping)),
+    "Sky": Kind("text or a dict", lambda value: isinstance(value, (str, Mapping))),
     "Sequence[bytes]": Kind("a list of bytes", _are_bytes),
     "Map": Kind("an isolux.Map", _is_instance("Map")),
     "Grid": Kind("an isolux.Grid", _is_instance("Grid")),

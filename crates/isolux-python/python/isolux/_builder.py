@@ -67,12 +67,12 @@ def write(
     materials: Material | Mapping[str, Material],
     triangle_materials: npt.ArrayLike | None,
     luminaires: Luminaire | Sequence[Luminaire | Mapping[str, Any]],
-    cameras: Sequence[Mapping[str, Any]],
-    grids: Sequence[Mapping[str, Any]],
+    rows: Mapping[str, Sequence[Mapping[str, Any]]],
+    sky: Mapping[str, Any] | None,
     name: str,
     up: str,
 ) -> Written:
-    """Write the files of a scene."""
+    """Write the files of a scene; ``rows`` are those of its tables by their names."""
     points, corners = _mesh(vertices, triangles)
     known = _materials(materials)
     chosen = _chosen(triangle_materials, list(known), len(corners))
@@ -90,9 +90,11 @@ def write(
             written.table("[[geometry]]", keys, of, dict.fromkeys(keys, ""))
     for place, keys, names in _luminaires(luminaires):
         written.table("[[luminaire]]", keys, place, names)
-    for argument, table, rows in (("cameras", "camera", cameras), ("grids", "grid", grids)):
-        for place, row in _rows(argument, rows):
+    for table, of in rows.items():
+        for place, row in _rows(f"{table}s", of):
             written.table(f"[[{table}]]", row, place)
+    if sky is not None:
+        written.table("[sky]", sky, "sky")
     written.save()
     return written
 

@@ -120,6 +120,12 @@ def words(**flags: Any) -> list[str]:
     return found
 
 
+def repeated(name: str, values: str | Sequence[Any]) -> list[str]:
+    """A flag that may be given several times."""
+    several = [values] if isinstance(values, str) else values
+    return [part for value in several for part in words(**{name: value})]
+
+
 def word(value: Any) -> str:
     """A value as the command has it."""
     if isinstance(value, os.PathLike):

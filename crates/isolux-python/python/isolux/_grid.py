@@ -49,12 +49,23 @@ class Grid:
     #: The factor of the grid, and whether values are ``"initial"``, ``"maintained"`` or ``"both"``.
     maintenance_factor: float
     maintenance: str
+    #: What is required of it, by ``require`` and by the scene: each a dict with its ``condition``, the ``value`` found with its interval
+    #: (``low``, ``high``), the ``verdict`` (``"met"``, ``"not_met"`` or ``"undecided"``) and the ``probability`` that it holds.
+    requirements: list[dict[str, Any]]
     #: All that ``isolux grid --json`` prints of it.
     report: dict[str, Any]
 
 
-def grid(report: dict[str, Any]) -> Grid:
-    """A grid as the command tells of it."""
+def grids(report: dict[str, Any]) -> list[Grid]:
+    """All grids that the command tells of."""
+    required = report.get("requirements", [])
+    return [
+        _grid(of, [judged for judged in required if judged["grid"] == of["name"]])
+        for of in report["grids"]
+    ]
+
+
+def _grid(report: dict[str, Any], requirements: list[dict[str, Any]]) -> Grid:
     across, down = report["counts"]
 
     def figure(name: str) -> Figure | None:
@@ -83,5 +94,6 @@ def grid(report: dict[str, Any]) -> Grid:
         border_m=report["border_m"],
         maintenance_factor=report["maintenance_factor"],
         maintenance=report["maintenance"],
+        requirements=requirements,
         report=report,
     )

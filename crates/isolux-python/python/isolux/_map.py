@@ -15,10 +15,11 @@ import numpy.typing as npt
 
 from isolux import _native
 from isolux._arguments import Point, at_least, checked, misfit
-from isolux._call import Call, Path, with_unit, word, words
+from isolux._call import Call, Path, repeated, with_unit, word, words
 from isolux._errors import public, wrong
-from isolux._grid import Grid, grid
+from isolux._grid import Grid, grids
 from isolux._readings import Array, Readings, fixed, places, readings
+from isolux._report import Reported
 from isolux._scene import Scene
 from isolux._view import FINER_S, HEIGHT, View
 
@@ -26,7 +27,7 @@ Given = list[tuple[str, _native.Scene | _native.Map]]
 
 
 @public
-class Map:
+class Map(Reported):
     """An illumination map: the illuminance on every surface of a scene, with its standard error. It does not change.
 
     Made by :func:`isolux.solve`, :func:`isolux.open_map` or :func:`isolux.mix`. Arrays are copied from the map on first use, as the
@@ -150,6 +151,7 @@ class Map:
         maintenance_factor: float | None = None,
         quantity: str | None = None,
         facing: float | None = None,
+        require: str | Sequence[str] = (),
         picture: Path | None = None,
         csv: Path | None = None,
     ) -> Grid:
@@ -159,7 +161,8 @@ class Map:
         plan at a ``height``, or given by a ``corner`` and its sides ``u`` and ``v``, facing u x v. Lengths are metres. ``spacing`` is
         that of EN 12464-1 unless given; ``border`` is the band along the sides that is left out. ``maintenance_factor`` is the share
         of the initial light that is left. ``quantity`` is ``illuminance`` unless given, else ``cylindrical``, ``semi-cylindrical``
-        (which looks the way of ``facing``, degrees from x by the left in plan), ``hemispherical`` or ``modelling``. ``picture`` (.png, .svg) gets a plan with the values, ``csv`` all points.
+        (which looks the way of ``facing``, degrees from x by the left in plan), ``hemispherical`` or ``modelling``. ``require`` is what has to hold: ``"Em >= 500, U0 >= 0.6"``, ``"EN 12464-1 34.2"``; what came
+        of it is in ``requirements`` of the grid. ``picture`` (.png, .svg) gets a plan with the values, ``csv`` all points.
         """
         own = height is not None or corner is not None
         if name is None and not own and len(self.scene.grids) > 1:
@@ -179,13 +182,50 @@ class Map:
             picture=picture,
             csv=csv,
         )
-        return grid(self._run("grid", flags).report["grids"][0])
+        return grids(self._run("grid", flags + repeated("require", require)).report)[0]
 
     @checked
-    def grids(self, *, maintenance_factor: float | None = None) -> list[Grid]:
-        """The illuminance on all calculation grids of the scene; see :meth:`grid`."""
+    def grids(
+        self, *, maintenance_factor: float | None = None, require: str | Sequence[str] = ()
+    ) -> list[Grid]:
+        """The illuminance on all calculation grids of the scene; see :meth:`grid`. ``require``: of one, ``"desks: Em >= 500"``, or of all."""
         flags = words(maintenance_factor=maintenance_factor)
-        return [grid(report) for report in self._run("grid", flags).report["grids"]]
+        return grids(self._run("grid", flags + repeated("require", require)).report)
+
+    @checked
+    def glare(
+        self,
+        *,
+        cameras: Sequence[str] = (),
+        eye: Point | None = None,
+        target: Point | None = None,
+        metric: str = "ugr",
+        threshold: float | str | None = None,
+        grids: str | Sequence[str] = (),
+        directions: Sequence[Point] = (),
+        eye_height: float | None = None,
+        limit: float | None = None,
+        csv: Path | None = None,
+    ) -> Any:
+        """The glare of observers: the object that ``isolux glare --json`` prints, with ``["observers"]`` or ``["grids"]``.
+
+        Observers are the ``cameras`` of these names (all unless given), an ``eye`` that looks at a ``target``, or eyes at all points of
+        ``grids``. ``metric``: ``"ugr"``, the unified glare rating of luminaires (CIE 117), or ``"dgp"``, the daylight glare probability,
+        for which what is brighter than ``threshold`` glares: cd/m2, 2000 unless given, or ``"5x"`` the mean. On grids eyes are at
+        ``eye_height``, 1.2 m above the floor unless given, look along their sides, or ``directions``, and keep a ``limit``, 19 unless
+        given; ``csv`` gets all views.
+        """
+        flags = words(
+            eye=eye,
+            target=target,
+            metric=metric,
+            threshold=threshold,
+            eye_height=eye_height,
+            limit=limit,
+            csv=csv,
+        )
+        flags += repeated("camera", cameras) + repeated("grid", grids)
+        return self._run("glare", flags + repeated("direction", directions)).report
 
     @checked
     def render(
@@ -348,8 +388,9 @@ class Map:
         """The bytes of the map file."""
         return self._native.file(self._name, Call())
 
-    def _run(self, subcommand: str, flags: Sequence[str] = ()) -> Call:
-        return Call().run([subcommand, *flags, "--", self._name], [(self._name, self._native)])
+    def _run(self, subcommand: str, words: Sequence[str] = (), call: Call | None = None) -> Call:
+        call = call or Call()
+        return call.run([subcommand, *words, "--", self._name], [(self._name, self._native)])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _from_bytes, (self.to_bytes(), self._name)

@@ -13,15 +13,21 @@ import numpy as np
 import numpy.typing as npt
 
 from isolux import _builder, _native
-from isolux._arguments import at_least, checked
+from isolux._arguments import Point, at_least, checked
 from isolux._builder import Luminaire, Material
-from isolux._call import Call, Path
+from isolux._call import Call, Path, words
+from isolux._daylight import DaylightGrid, daylight_grid
 from isolux._errors import InputError, public, wrong
 from isolux._readings import Array, Readings, fixed, places, readings
+from isolux._report import Reported
+from isolux._written import written
+
+#: The keys of ``[sky]``, or the words of ``--sky``.
+Sky = str | Mapping[str, Any]
 
 
 @public
-class Scene:
+class Scene(Reported):
     """A scene: surfaces, materials, luminaires. It does not change.
 
     Made by :func:`isolux.load` or :meth:`from_arrays`. Lengths are metres, in the axes of the scene as written.
@@ -45,6 +51,8 @@ class Scene:
         luminaires: Luminaire | Sequence[Luminaire | Mapping[str, Any]] = (),
         cameras: Sequence[Mapping[str, Any]] = (),
         grids: Sequence[Mapping[str, Any]] = (),
+        requirements: Sequence[Mapping[str, Any]] = (),
+        sky: Mapping[str, Any] | None = None,
         name: str = "scene",
         up: str = "z",
     ) -> Scene:
@@ -54,27 +62,28 @@ class Scene:
         ``materials``: a diffuse reflectance for all, or a dict of names. What a name stands for is a reflectance, one number or
         (red, green, blue) in linear Rec. 709, or a dict with the keys of ``[materials.NAME]`` in a ``scene.toml``, such as
         ``{"luminance_cd_m2": 2000}``. ``triangle_materials``: (m,) names, or integers that count ``materials``; may be left out where
-        there is one. ``luminaires``: :class:`Luminaire`, or dicts with the keys of ``[[luminaire]]``. ``cameras`` and ``grids``: dicts with the keys of
-        ``[[camera]]`` and ``[[grid]]``. ``up``: ``"y"`` or ``"z"``.
+        there is one. ``luminaires``: :class:`Luminaire`, or dicts with the keys of ``[[luminaire]]``. ``cameras``, ``grids`` and
+        ``requirements``: dicts with the keys of ``[[camera]]``, ``[[grid]]`` and ``[[requirement]]``; ``sky``: a dict with those of ``[sky]``.
+        ``up``: ``"y"`` or ``"z"``.
         """
         with tempfile.TemporaryDirectory(prefix="isolux-") as folder:
-            written = _builder.write(
+            files = _builder.write(
                 FilePath(folder),
                 vertices,
                 triangles,
                 materials,
                 triangle_materials,
                 luminaires,
-                cameras,
-                grids,
+                {"camera": cameras, "grid": grids, "requirement": requirements},
+                sky,
                 name,
                 up,
             )
             # Photometric files lie anywhere.
             try:
-                scene = _read([str(written.file)], ["--allow-outside"], written.told)
+                scene = _read([str(files.file)], ["--allow-outside"], files.told)
             except InputError as error:
-                raise written.error(error) from None
+                raise files.error(error) from None
             return scene._named(name)
 
     def _named(self, source: str) -> Scene:
@@ -187,6 +196,49 @@ class Scene:
         call.pass_on()
         return readings(rows)
 
+    @checked
+    def daylight(
+        self,
+        weather: Path,
+        name: str | None = None,
+        *,
+        height: float | None = None,
+        corner: Point | None = None,
+        u: Point | None = None,
+        v: Point | None = None,
+        spacing: float | None = None,
+        border: float | None = None,
+        hours: tuple[int, int] = (8, 18),
+        ground_reflectance: float = 0.2,
+        paths: int = 16_384,
+        seed: int = 1,
+        csv: Path | None = None,
+    ) -> list[DaylightGrid]:
+        """A year of daylight on calculation grids, as ``isolux daylight`` has it; luminaires are off.
+
+        ``weather``: a year of weather (.epw). Grids are those of the scene, the one of this ``name``, or as in :meth:`Map.grid`.
+        ``hours``: of use, from and to, by standard time. ``ground_reflectance``: of the ground beyond the scene in these hours. ``paths``:
+        from every point, 256 at least; more make intervals narrower. ``csv`` gets all points.
+        """
+        at_least(256, paths=paths)
+        at_least(0, seed=seed)
+        flags = words(
+            weather=weather,
+            name=name,
+            height=height,
+            corner=corner,
+            u=u,
+            v=v,
+            spacing=spacing,
+            border=border,
+            hours="..".join(map(str, hours)),
+            ground_reflectance=ground_reflectance,
+            paths=paths,
+            seed=seed,
+            csv=csv,
+        )
+        return [daylight_grid(grid) for grid in self._run("daylight", flags).report["grids"]]
+
     def check(self) -> Any:
         """Audit the scene before a run: the object that ``isolux check --json`` prints."""
         return self._run("check").report
@@ -214,11 +266,15 @@ def _unpacked(data: bytes, source: str, warnings: Sequence[str]) -> Scene:
 def load(
     source: Path,
     *further: Path,
+    sky: Sky | None = None,
     materials_as_written: bool = False,
     allow_outside: bool = False,
 ) -> Scene:
     """Read a scene: ``scene.toml``, glTF, OBJ, PLY, STL, Radiance (with ``further`` files), Mitsuba, or ``builtin:NAME``.
 
+    ``sky``: the sky, the sun and the ground beyond the scene, in place of all light that it has infinitely far away: a dict with the keys
+    of ``[sky]`` in a ``scene.toml``, as ``{"weather": "berlin.epw", "time": datetime(2026, 6, 21, 12)}``, or the words of ``--sky``, as
+    ``"overcast, horizontal_lx=10000"``.
     ``materials_as_written``: read materials of other formats by their letter, where that makes surfaces invisible, too.
     ``allow_outside``: let the scene name files outside of its folder; only for scenes that you trust.
 
@@ -227,6 +283,8 @@ def load(
     files = [os.fspath(file) for file in (source, *further)]
     flags = ["--materials", "as-written"] if materials_as_written else []
     flags += ["--allow-outside"] if allow_outside else []
+    if sky is not None:
+        flags += ["--sky", sky if isinstance(sky, str) else written(sky, "sky")]
     return _read(files, flags)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import json
 import os
 import re
@@ -45,7 +46,7 @@ class Written:
         self.line(header, place)
         for key, value in keys.items():
             where = (names or {}).get(key, f".{key}")
-            self.line(f"{_key(key)} = {_toml(value, place + where)}", place + where)
+            self.line(f"{_key(key)} = {toml(value, place + where)}", place + where)
 
     def beside(self, file: str, place: str) -> Path:
         """A further file, and the argument that it comes from."""
@@ -88,6 +89,11 @@ class Written:
         return Problem(self.told(problem.message), file, place, remedy)
 
 
+def written(keys: Mapping[str, Any], place: str) -> str:
+    """A table as the words of an argument of the command."""
+    return ", ".join(f"{_key(key)} = {toml(value, f'{place}.{key}')}" for key, value in keys.items())
+
+
 def _key(key: Any) -> str:
     if not isinstance(key, str):
         raise misfit("a key", key, "text")
@@ -99,7 +105,8 @@ def _text(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _toml(value: Any, place: str) -> str:
+def toml(value: Any, place: str) -> str:
+    """A value in TOML, and the argument that it comes from."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, bool):
@@ -110,9 +117,11 @@ def _toml(value: Any, place: str) -> str:
         return repr(float(value))
     if isinstance(value, (str, os.PathLike)):
         return _text(os.fspath(value))
+    if isinstance(value, datetime.datetime):
+        return value.isoformat()
     if isinstance(value, Mapping):
-        parts = (f"{_key(k)} = {_toml(v, f'{place}.{k}')}" for k, v in value.items())
+        parts = (f"{_key(k)} = {toml(v, f'{place}.{k}')}" for k, v in value.items())
         return "{ " + ", ".join(parts) + " }"
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
-        return "[" + ", ".join(_toml(v, f"{place}[{k}]") for k, v in enumerate(value)) + "]"
-    raise misfit(place, value, "a number, text, True or False, a list or a dict")
+        return "[" + ", ".join(toml(v, f"{place}[{k}]") for k, v in enumerate(value)) + "]"
+    raise misfit(place, value, "a number, text, True or False, a datetime, a list or a dict")

@@ -5,6 +5,7 @@ mod areas;
 mod assumptions;
 mod cover;
 mod daylight;
+mod emergency;
 mod glare;
 mod least;
 mod luminaires;
@@ -21,6 +22,7 @@ pub(crate) fn document(report: &Report, language: Language) -> Document {
     let sections = [
         results::section(report, words),
         areas::section(report, words),
+        emergency::section(report, words),
         luminaires::section(report, words),
         daylight::section(report, words),
         glare::section(report, words),

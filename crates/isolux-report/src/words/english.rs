@@ -1,8 +1,8 @@
 //! The report in English.
 
 use super::phrases::{
-    AccuracyWords, AreaWords, AssumptionWords, BudgetWords, CoverWords, DaylightWords, GlareWords,
-    LuminaireWords, ResultWords, ViewWords, Words,
+    AccuracyWords, AreaWords, AssumptionWords, BudgetWords, CoverWords, DaylightWords,
+    EmergencyWords, GlareWords, LuminaireWords, ResultWords, ViewWords, Words,
 };
 use isolux_view::PlanWords;
 
@@ -60,6 +60,17 @@ pub(super) const WORDS: Words = Words {
         values_caption: "Illuminance at the points, lx; the standard error of a value is about {error} lx",
         too_many: "The grid has too many points for a table on paper; `isolux grid --csv` writes all of them.",
         row: "Row",
+    },
+    emergency: EmergencyWords {
+        title: "Emergency lighting",
+        lead: "Judged by EN 1838:2013, from the direct light of the luminaires of emergency lighting alone ({count}): what is reflected does \
+               not count.",
+        caption: "Requirements of emergency lighting",
+        centre_line: "on the centre line",
+        middle_half: "in the middle half",
+        core: "without the outer 0.5 m",
+        high_risk: "in the area of high risk",
+        dark: "dark in places",
     },
     budget: BudgetWords {
         caption: "What the mean may be off by (GUM, at 95 %)",

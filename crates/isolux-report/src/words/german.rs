@@ -1,8 +1,8 @@
 //! The report in German.
 
 use super::phrases::{
-    AccuracyWords, AreaWords, AssumptionWords, BudgetWords, CoverWords, DaylightWords, GlareWords,
-    LuminaireWords, ResultWords, ViewWords, Words,
+    AccuracyWords, AreaWords, AssumptionWords, BudgetWords, CoverWords, DaylightWords,
+    EmergencyWords, GlareWords, LuminaireWords, ResultWords, ViewWords, Words,
 };
 use isolux_view::PlanWords;
 
@@ -70,6 +70,17 @@ pub(super) const WORDS: Words = Words {
         values_caption: "Beleuchtungsstärke an den Punkten, lx; der Standardfehler eines Wertes ist etwa {error} lx",
         too_many: "Das Raster hat zu viele Punkte für eine Tabelle auf Papier; `isolux grid --csv` schreibt alle.",
         row: "Reihe",
+    },
+    emergency: EmergencyWords {
+        title: "Notbeleuchtung",
+        lead: "Beurteilt nach EN 1838:2013, nur aus dem direkten Licht der Leuchten der Notbeleuchtung ({count}): Reflektiertes Licht zählt \
+               nicht.",
+        caption: "Anforderungen an die Notbeleuchtung",
+        centre_line: "auf der Mittellinie",
+        middle_half: "in der mittleren Hälfte",
+        core: "ohne den äußeren Rand von 0,5 m",
+        high_risk: "im Bereich besonderer Gefährdung",
+        dark: "stellenweise dunkel",
     },
     budget: BudgetWords {
         caption: "Unsicherheit des Mittelwertes (GUM, 95 %)",

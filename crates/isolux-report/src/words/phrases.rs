@@ -14,6 +14,7 @@ pub(crate) struct Words {
     pub(crate) cover: CoverWords,
     pub(crate) results: ResultWords,
     pub(crate) areas: AreaWords,
+    pub(crate) emergency: EmergencyWords,
     pub(crate) budget: BudgetWords,
     pub(crate) luminaires: LuminaireWords,
     pub(crate) daylight: DaylightWords,
@@ -94,6 +95,21 @@ pub(crate) struct AreaWords {
     pub(crate) values_caption: &'static str,
     pub(crate) too_many: &'static str,
     pub(crate) row: &'static str,
+}
+
+#[derive(Debug)]
+pub(crate) struct EmergencyWords {
+    pub(crate) title: &'static str,
+    /// `{count}`.
+    pub(crate) lead: &'static str,
+    pub(crate) caption: &'static str,
+    /// Where a condition is of, after it.
+    pub(crate) centre_line: &'static str,
+    pub(crate) middle_half: &'static str,
+    pub(crate) core: &'static str,
+    pub(crate) high_risk: &'static str,
+    /// Of a ratio to nothing.
+    pub(crate) dark: &'static str,
 }
 
 #[derive(Debug)]

@@ -287,6 +287,7 @@ mod tests {
             border_m: 0.0,
             maintenance_factor: 1.0,
             requirements: Vec::new(),
+            emergency: None,
         };
         Plane::of(&grid).unwrap()
     }

@@ -241,6 +241,7 @@ mod tests {
             border_m: 0.0,
             maintenance_factor: 1.0,
             requirements: Vec::new(),
+            emergency: None,
         };
         let plane = Plane::of(&grid).unwrap();
         // A wall on the left, one askew above, one too far below.

@@ -116,6 +116,7 @@ mod tests {
             border_m: 0.0,
             maintenance_factor,
             requirements: Vec::new(),
+            emergency: None,
         }
     }
 

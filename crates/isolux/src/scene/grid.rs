@@ -1,6 +1,6 @@
 //! Calculation grids: points at which a lighting designer asks for illuminance.
 
-use super::requirement::Requirement;
+use super::requirement::{EmergencyArea, Requirement};
 use isolux_geometry::{Normal, Point, Vector};
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +28,9 @@ pub struct CalculationGrid {
     /// What has to hold on it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub requirements: Vec<Requirement>,
+    /// What it is an area of, if it is one of emergency lighting.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub emergency: Option<EmergencyArea>,
 }
 
 impl CalculationGrid {
@@ -143,6 +146,7 @@ mod tests {
             border_m: 0.0,
             maintenance_factor: 0.8,
             requirements: Vec::new(),
+            emergency: None,
         }
     }
 

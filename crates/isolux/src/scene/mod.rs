@@ -36,6 +36,6 @@ pub use material::{Body, Coat, Dielectric, Finish, Gloss, Material, Reflectance}
 pub use north::world_from_sky;
 pub use parts::{SceneParts, Shape, UpAxis};
 pub use problem::{Place, SceneProblem};
-pub use requirement::{Condition, GridQuantity, Requirement};
+pub use requirement::{Condition, EmergencyArea, GridQuantity, Requirement};
 pub use texture::Texture;
 pub use view::Camera;

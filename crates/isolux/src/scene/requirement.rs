@@ -12,6 +12,21 @@ pub struct Requirement {
     pub conditions: Vec<Condition>,
 }
 
+/// Areas of emergency lighting (EN 1838).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EmergencyArea {
+    /// A strip of at most two metres that leads out.
+    EscapeRoute,
+    /// A floor from which escape routes are reached.
+    OpenArea,
+    /// Where something dangerous is to be ended.
+    HighRisk {
+        /// The illuminance that its task requires, lx.
+        task_lx: f64,
+    },
+}
+
 /// A bound of a figure of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Condition {

@@ -26,17 +26,18 @@ pub(super) struct Strip {
 
 impl Strip {
     /// The longer side of a grid is along the route.
-    pub(super) fn of(grid: &CalculationGrid, spacing_m: Option<f64>) -> Result<Self, String> {
+    pub(super) fn of(grid: &CalculationGrid) -> Result<Self, String> {
         let is_along_u = grid.u.length() >= grid.v.length();
         let (along, across) = if is_along_u { (grid.u, grid.v) } else { (grid.v, grid.u) };
         let wide_m = across.length();
         if wide_m > WIDEST_M + ROUNDING_M {
             return Err(format!(
-                "--emergency escape-route: grid `{}` is {wide_m} m wide; divide it into strips of at most 2 m, or ask for open-area",
+                "emergency lighting: grid `{}` is {wide_m} m wide, and an escape route is at most 2 m; divide it into strips, or make it an \
+                 open area",
                 name(&grid.name)
             ));
         }
-        let spacing_m = spacing_m.or(grid.spacing_m).unwrap_or(ALONG_M);
+        let spacing_m = grid.spacing_m.unwrap_or(ALONG_M);
         let count = (along.length() / spacing_m).ceil().max(1.0) as u32;
         let line = |share: f64| {
             let from = grid.corner + across * (0.5 + share);
@@ -55,7 +56,7 @@ pub(super) fn open_area(grid: &CalculationGrid) -> Result<Vec<ProbePoint>, Strin
     match grid.problem() {
         None => Ok(all(&grid)),
         Some((what, _)) => Err(format!(
-            "--emergency open-area: grid `{}` {what}; take a larger one, or ask for escape-route",
+            "emergency lighting: grid `{}` {what} without its outer half metre; take a larger one, or make it an escape route",
             name(&grid.name)
         )),
     }
@@ -87,6 +88,7 @@ mod tests {
             border_m: 0.0,
             maintenance_factor: 1.0,
             requirements: Vec::new(),
+            emergency: None,
         }
     }
 
@@ -97,7 +99,7 @@ mod tests {
             (route([2.0, 0.0, 0.0], [0.0, 10.0, 0.0]), |k: f64| Point::new(2.0, 2.0 + k, 0.0)),
         ] as [(CalculationGrid, fn(f64) -> Point); 2]
         {
-            let strip = Strip::of(&grid, None).unwrap();
+            let strip = Strip::of(&grid).unwrap();
             assert_eq!((strip.centre.len(), strip.middle.len()), (21, 105));
             for (at, k) in strip.centre.iter().zip(0..) {
                 assert!((at.position - middle(0.5 * f64::from(k))).length() < 1e-12, "{at:?}");
@@ -109,11 +111,10 @@ mod tests {
             let widest = strip.middle.iter().map(off).fold(0.0, f64::max);
             assert!((widest - 0.5).abs() < 1e-12, "a quarter of 2 m: {widest}");
         }
-        assert!(Strip::of(&route([10.0, 0.0, 0.0], [0.0, 2.1, 0.0]), None).is_err());
-        assert_eq!(
-            Strip::of(&route([10.0, 0.0, 0.0], [0.0, 1.0, 0.0]), Some(5.0)).unwrap().centre.len(),
-            3
-        );
+        assert!(Strip::of(&route([10.0, 0.0, 0.0], [0.0, 2.1, 0.0])).is_err());
+        let coarse =
+            CalculationGrid { spacing_m: Some(5.0), ..route([10.0, 0.0, 0.0], [0.0, 1.0, 0.0]) };
+        assert_eq!(Strip::of(&coarse).unwrap().centre.len(), 3);
     }
 
     #[test]

@@ -8,6 +8,7 @@ use super::{finer, started};
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ViewFlags;
+use crate::interrupt::signals;
 use crate::map_file;
 use crate::walk::{Hello, Opened, grids_of_map};
 use isolux_serve::Feed;
@@ -44,7 +45,7 @@ pub(crate) fn view(flags: &ViewFlags, json: bool) -> Result<Outcome, Failure> {
     served.tell(|state| state.learn_of_map(&maps[0].map));
     let server = started(&flags.server, Arc::clone(&served), served.feed.clone())?;
     let stopper = server.stopper();
-    ctrlc::set_handler(move || stopper.stop())
+    signals::listen(move || stopper.stop())
         .map_err(|e| Failure::Refused(format!("cannot listen to Ctrl-C: {e}")))?;
     match json {
         true => print_json(&Report { address: server.url() })?,

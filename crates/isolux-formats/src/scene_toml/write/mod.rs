@@ -17,7 +17,7 @@ pub use lamps::NamedPhotometry;
 
 use crate::luminance::LuminanceError;
 use crate::png::{self, PngError};
-use isolux::scene::{Condition, Requirement, SceneParts, Texture, UpAxis};
+use isolux::scene::{Condition, EmergencyArea, Requirement, SceneParts, Texture, UpAxis};
 
 /// Why a scene cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -64,6 +64,14 @@ fn grids(parts: &SceneParts) -> String {
         }
         toml += &format!("border = {}\n", text::number(grid.border_m));
         toml += &format!("maintenance_factor = {}\n", text::number(grid.maintenance_factor));
+        toml += &match grid.emergency {
+            None => String::new(),
+            Some(EmergencyArea::EscapeRoute) => "emergency = \"escape-route\"\n".to_owned(),
+            Some(EmergencyArea::OpenArea) => "emergency = \"open-area\"\n".to_owned(),
+            Some(EmergencyArea::HighRisk { task_lx }) => {
+                format!("emergency = \"high-risk\"\ntask_lx = {}\n", text::number(task_lx))
+            }
+        };
     }
     for grid in &parts.grids {
         for requirement in &grid.requirements {
