@@ -1,4 +1,4 @@
-"""Illuminances of ten daylit rooms by Radiance, by isolux, and by isolux's long paths as the arbiter.
+"""Illuminances of ten daylit rooms by Radiance, by maps of isolux, and by isolux's long paths as the arbiter.
 
 Run by hand:  python rooms.py --isolux PATH [--only 1 4] [--save results]
 
@@ -20,8 +20,12 @@ import ten_rooms
 # Differences beyond both are marked.
 LIMIT = 0.02
 MOST_ERRORS = 3.0
+# Root mean square of what points of a map are off, in combined standard errors: right ones have one or less.
+MOST_RMS_ERRORS = 2.0
 # 95 % of a normal distribution.
 NORMAL = 1.96
+# What is divided by what.
+PAIRS = [("grid", "radiance"), ("exact", "radiance"), ("paths", "radiance"), ("grid", "paths"), ("exact", "paths")]
 # High above everything: the light of the sky alone.
 OPEN_GROUND = (0.0, 0.0, 500.0)
 
@@ -45,7 +49,7 @@ def main():
     if flags.save:
         save(results, flags)
     # Nothing judged is no acceptance.
-    wrong = [result["room"] for result in results if result["right"] == "Radiance"]
+    wrong = [result for result in results if result["right"] in ("Radiance", "neither") or result["understated"]]
     sys.exit(1 if wrong or not results else 0)
 
 
@@ -71,39 +75,53 @@ def judged(number, room, flags, folder):
     theirs, open_lx = of_radiance(scene, room, flags)
     theirs_mean, theirs_error = over_repetitions(theirs["lux"].mean(axis=1))
     point_lx, point_error = over_repetitions(theirs["lux"])
-    long_lx, long_error, long_s = map(
-        np.array, by_isolux.by_paths(flags.isolux, scene, [*places, OPEN_GROUND], flags.paths, folder / "points.pts")
-    )
-    open_by_isolux, long_lx, long_error = long_lx[-1], long_lx[:-1], long_error[:-1]
-    grid, grid_s, _ = by_isolux.by_grid(flags.isolux, scene, room.plane, flags.accuracy)
+    points_file = folder / "points.pts"
+    long_lx, long_error, long_s = by_isolux.by_paths(flags.isolux, scene, [*places, OPEN_GROUND], flags.paths, points_file)
+    made, map_s = by_isolux.solved(flags.isolux, scene, flags.accuracy)
+    grid, grid_s = by_isolux.by_grid(flags.isolux, made, room.plane)
+    exact_lx, exact_error, exact_s = by_isolux.exactly(flags.isolux, made, places, points_file)
+    read = [(v["illuminance_lx"], v["standard_error_lx"]) for v in grid["values"]]
     mean = grid["mean_lx"]
-    map_lx = np.array([v["illuminance_lx"] for v in grid["values"]], dtype=float)
-    map_error = np.array([v["standard_error_lx"] for v in grid["values"]], dtype=float)
+    found = {
+        "radiance": (point_lx, point_error),
+        "grid": tuple(np.array(read, dtype=float).T),
+        "exact": (np.array(exact_lx), np.array(exact_error)),
+        "paths": (np.array(long_lx[:-1]), np.array(long_error[:-1])),
+    }
+    means = {
+        "radiance": {"mean_lx": theirs_mean, "error_lx": theirs_error, "seconds": theirs["seconds"]},
+        "grid": {"mean_lx": mean["value"], "error_lx": (mean["high"] - mean["low"]) / (2 * NORMAL), "seconds": map_s + grid_s},
+        # Errors of what a map says may be alike at all points.
+        "exact": {**of_points(found["exact"], np.mean), "seconds": map_s + exact_s},
+        # Points are traced with numbers of their own.
+        "paths": {**of_points(found["paths"], of_independent), "seconds": long_s},
+    }
     result = {
         "number": number,
         "room": room.name,
         "use": "tuning" if ten_rooms.is_for_tuning(number) else "judging",
-        "open_ground": {"radiance_lx": open_lx, "isolux_lx": open_by_isolux},
-        "radiance": {"mean_lx": theirs_mean, "error_lx": theirs_error, "seconds": theirs["seconds"]},
-        "map": {"mean_lx": mean["value"], "error_lx": (mean["high"] - mean["low"]) / (2 * NORMAL), "seconds": grid_s},
-        # Points are traced with numbers of their own.
-        "paths": {
-            "mean_lx": long_lx.mean(),
-            "error_lx": math.sqrt((long_error**2).sum()) / len(long_error),
-            "seconds": float(long_s),
-        },
+        "open_ground": {"radiance_lx": open_lx, "paths_lx": long_lx[-1]},
+        **means,
         "points": [
-            {"place": place, "radiance": [r, re], "map": [m, me], "paths": [p, pe]}
-            for place, r, re, m, me, p, pe in zip(
-                places, point_lx, point_error, map_lx, map_error, long_lx, long_error
-            )
+            {"place": place, **{name: [lx[k], error[k]] for name, (lx, error) in found.items()}}
+            for k, place in enumerate(places)
         ],
     }
-    result["map_over_radiance"] = compared((map_lx, map_error), (point_lx, point_error), result["map"], result["radiance"])
-    result["paths_over_radiance"] = compared((long_lx, long_error), (point_lx, point_error), result["paths"], result["radiance"])
-    result["map_over_paths"] = compared((map_lx, map_error), (long_lx, long_error), result["map"], result["paths"])
+    for one, other in PAIRS:
+        result[f"{one}_over_{other}"] = compared(found[one], found[other], means[one], means[other])
     result["right"] = verdict(result)
+    result["understated"] = [name for name in ("grid", "exact") if result[f"{name}_over_paths"]["rms_errors"] > MOST_RMS_ERRORS]
     return result
+
+
+def of_points(found, of_errors):
+    lx, errors = found
+    return {"mean_lx": float(lx.mean()), "error_lx": float(of_errors(errors))}
+
+
+def of_independent(errors):
+    """The standard error of a mean of independent values."""
+    return math.sqrt((errors**2).sum()) / len(errors)
 
 
 def of_radiance(scene, room, flags):
@@ -147,40 +165,42 @@ def is_apart(comparison):
 
 
 def verdict(result):
-    """Whom the long paths say to be right, where the map and Radiance are apart; else none."""
-    if not (is_apart(result["map_over_radiance"]) or is_apart(result["paths_over_radiance"])):
-        return None
-    map_is_far, radiance_is_far = is_apart(result["map_over_paths"]), is_apart(result["paths_over_radiance"])
-    return {(False, True): "isolux", (True, False): "Radiance", (True, True): "neither", (False, False): "open"}[
-        map_is_far, radiance_is_far
+    """With whom the long paths are, where isolux and Radiance are apart; else nobody."""
+    isolux_is_far = is_apart(result["grid_over_paths"]) or is_apart(result["exact_over_paths"])
+    radiance_is_far = is_apart(result["paths_over_radiance"])
+    return {(False, True): "isolux", (True, False): "Radiance", (True, True): "neither", (False, False): None}[
+        isolux_is_far, radiance_is_far
     ]
 
 
 def sentence(result):
-    of = result["map_over_radiance"]
-    end = f"; the long paths are with {result['right']}" if result["right"] else ""
-    return f"{result['room']}: {100 * of['difference']:+.2f} % ± {100 * of['error']:.2f} %{end}"
+    shares = [f"{one} {percent(result[f'{one}_over_radiance'])}" for one in ("grid", "exact", "paths")]
+    end = f"; long paths are with {result['right']}" if result["right"] else ""
+    return f"{result['room']}, over Radiance: {', '.join(shares)}{end}"
+
+
+def percent(of):
+    return f"{100 * of['difference']:+.2f} ± {100 * of['error']:.2f} %"
 
 
 def table(results):
-    head = (
-        "| room | for | Radiance, lx | map, lx | long paths, lx | map over Radiance | paths over Radiance | points, map over Radiance: "
-        "largest, RMS in errors | points, paths over Radiance: largest, RMS in errors | seconds: Radiance, map, paths | apart |\n|"
-        + 11 * "---|"
-    )
-    return "\n".join([head, *map(row, results)]) + "\n"
-
-
-def row(result):
-    lux = lambda of: f"{of['mean_lx']:.1f} ± {of['error_lx']:.1f}"
-    share = lambda of: f"{100 * of['difference']:+.2f} ± {100 * of['error']:.2f} %"
-    spread = lambda of: f"{of['largest_errors']:.1f}, {of['rms_errors']:.2f}"
-    three = [result[of] for of in ("radiance", "map", "paths")]
-    on_map, on_paths = result["map_over_radiance"], result["paths_over_radiance"]
-    seconds = ", ".join(f"{of['seconds']:.0f}" for of in three)
-    apart = f"paths: {result['right']}" if result["right"] else ""
-    cells = [result["room"], result["use"], *map(lux, three), share(on_map), share(on_paths), spread(on_map), spread(on_paths), seconds, apart]
-    return f"| {' | '.join(cells)} |"
+    """Means, differences of means, and differences of points: the largest and the root mean square, in combined standard errors."""
+    means = ["radiance", "grid", "exact", "paths"]
+    ratios = [f"{one} over {other}" for one, other in PAIRS]
+    cells = ["room", "for", *(f"{name}, lx" for name in means), *ratios, *(f"points, {name}" for name in ratios), "seconds", "paths are with", "understates its errors"]
+    lines = [cells, len(cells) * ["---"]]
+    for result in results:
+        pairs = [result[f"{one}_over_{other}"] for one, other in PAIRS]
+        lines.append([
+            result["room"], result["use"],
+            *(f"{result[name]['mean_lx']:.1f} ± {result[name]['error_lx']:.1f}" for name in means),
+            *map(percent, pairs),
+            *(f"{of['largest_errors']:.1f}, {of['rms_errors']:.2f}" for of in pairs),
+            ", ".join(f"{result[name]['seconds']:.0f}" for name in means),
+            result["right"] or "",
+            ", ".join(result["understated"]),
+        ])
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 
 def save(results, flags):
@@ -194,8 +214,17 @@ def save(results, flags):
         "clear_panes": flags.clear,
         "rooms": results,
     }
-    (flags.save / "rooms.json").write_text(json.dumps(facts, indent=1, default=float) + "\n")
+    (flags.save / "rooms.json").write_text(json.dumps(rounded(facts), indent=1) + "\n")
     (flags.save / "rooms.md").write_text(table(results))
+
+
+def rounded(value):
+    """With six significant digits, as standard errors need no more."""
+    if isinstance(value, dict):
+        return {key: rounded(of) for key, of in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [rounded(of) for of in value]
+    return float(f"{value:.6g}") if isinstance(value, (float, np.floating)) else value
 
 
 if __name__ == "__main__":

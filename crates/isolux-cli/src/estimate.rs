@@ -9,16 +9,20 @@ use std::time::Duration;
 
 /// Elements, sums and gathered rays of a receiver: 2900 in the demo interior.
 const BYTES_A_RECEIVER: u64 = 2900;
+/// From this share of the most on, the least is not told apart: memory is told to a fifth.
+const ALIKE: f64 = 0.8;
 /// How long a pilot may look, its first survey aside, before it is asked what it has seen.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Sizes of a run.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Estimate {
-    /// Vertices of the elements.
+    /// Vertices of the elements, at most and at least: how far elements are refined is known late.
     pub receivers: u64,
-    /// Memory, bytes.
+    pub receivers_least: u64,
+    /// Memory for them, bytes.
     pub memory_bytes: u64,
+    pub memory_least_bytes: u64,
     /// Time to the accuracy asked for on this machine, s, with an interval of 90 %; nothing where the
     /// method cannot tell.
     pub time_s: Option<f64>,
@@ -28,18 +32,30 @@ pub(crate) struct Estimate {
     pub accuracy_in_a_day: Option<f64>,
 }
 
+/// From the least to the most, or about so much where they differ by little.
+fn span(least: u64, most: u64, show: &dyn Fn(u64) -> String) -> String {
+    if least as f64 >= ALIKE * most as f64 {
+        return format!("about {}", show(most));
+    }
+    format!("{} to {}", show(least), show(most))
+}
+
 impl Estimate {
     /// From the beginning of the run itself.
     pub(crate) fn of(scene: &Scene, request: &SolveRequest) -> Result<Self, SolveError> {
         // The scene, and what its reader needed beside.
         let taken = isolux_memory::peak_bytes();
         let seen = foresee(scene, request, PATIENCE)?;
-        let memory_bytes = taken + seen.receivers * BYTES_A_RECEIVER;
+        let receivers_least = seen.receivers_so_far.min(seen.receivers);
+        let memory_bytes =
+            |receivers: u64| (taken + receivers * BYTES_A_RECEIVER).min(request.max_memory_bytes);
         let limit_s = request.time_limit.map_or(f64::INFINITY, |limit| limit.as_secs_f64());
         let limited = |time_s: f64| time_s.min(limit_s);
         Ok(Self {
             receivers: seen.receivers,
-            memory_bytes: memory_bytes.min(request.max_memory_bytes),
+            receivers_least,
+            memory_bytes: memory_bytes(seen.receivers),
+            memory_least_bytes: memory_bytes(receivers_least),
             time_s: seen.finish.map(|p| limited(p.finish_s)),
             time_earliest_s: seen.finish.map(|p| limited(p.earliest_s)),
             time_latest_s: seen.finish.map(|p| limited(p.latest_s)),
@@ -52,10 +68,13 @@ impl Estimate {
 
     /// Of runs one after another: the memory of the largest, the time of all.
     pub(crate) fn one_after_another(runs: &[Self]) -> Self {
+        let most = |of: fn(&Self) -> u64| runs.iter().map(of).max().unwrap_or(0);
         let time = |of: fn(&Self) -> Option<f64>| runs.iter().map(of).sum::<Option<f64>>();
         Self {
-            receivers: runs.iter().map(|run| run.receivers).max().unwrap_or(0),
-            memory_bytes: runs.iter().map(|run| run.memory_bytes).max().unwrap_or(0),
+            receivers: most(|run| run.receivers),
+            receivers_least: most(|run| run.receivers_least),
+            memory_bytes: most(|run| run.memory_bytes),
+            memory_least_bytes: most(|run| run.memory_least_bytes),
             time_s: time(|run| run.time_s),
             time_earliest_s: time(|run| run.time_earliest_s),
             time_latest_s: time(|run| run.time_latest_s),
@@ -65,8 +84,9 @@ impl Estimate {
 
     /// Receivers, memory and time as a user reads them.
     pub(crate) fn shown(&self) -> [String; 3] {
-        let receivers = format!("about {}", self.receivers);
-        [receivers, format!("about {}", show_bytes(self.memory_bytes)), self.time()]
+        let receivers = span(self.receivers_least, self.receivers, &|count| count.to_string());
+        let memory = span(self.memory_least_bytes, self.memory_bytes, &show_bytes);
+        [receivers, memory, self.time()]
     }
 
     fn time(&self) -> String {

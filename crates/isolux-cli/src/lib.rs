@@ -100,7 +100,13 @@ use std::ffi::OsString;
 /// and may end it: it is for programs that do nothing else.
 pub fn command(words: impl Iterator<Item = OsString>) -> u8 {
     match arguments::read(words) {
-        Ok(flags) => ending::tell(&run(&flags), flags.json),
+        Ok(flags) => {
+            let ended = run(&flags);
+            if ended.is_ok() {
+                source::warn_of_idle_sky();
+            }
+            ending::tell(&ended, flags.json)
+        }
         Err(code) => code,
     }
 }

@@ -80,10 +80,17 @@ struct Written {
 /// The text of a scene with a room of this width, depth and height, m.
 fn room(kind: RoomKind, size: [f64; 3]) -> String {
     let [width, depth, height] = size;
-    let (title, first) = match kind {
-        RoomKind::Office => ("Office", format!("{WOOD}{}", panel())),
+    // Walls without thickness: what lights them from outside is of no account.
+    let sided = if kind == RoomKind::Daylit { "sided = \"one\"\n" } else { "" };
+    let mut furnished = String::new();
+    if kind != RoomKind::Empty {
+        furniture(&mut furnished, [width, depth]);
+    }
+    let wood = if furnished.is_empty() { "" } else { WOOD };
+    let (title, own) = match kind {
+        RoomKind::Office => ("Office", panel()),
         RoomKind::Empty => ("Room", panel()),
-        RoomKind::Daylit => ("Daylit room", format!("{WOOD}{GLAZING}")),
+        RoomKind::Daylit => ("Daylit room", GLAZING.to_owned()),
     };
     let mut text = format!(
         "# A room of {width} m x {depth} m x {height} m: x is its width, y its depth, z up. Lengths are in metres.
@@ -92,14 +99,14 @@ name = \"{title}\"
 
 [materials.walls]
 diffuse = 0.6
-
+{sided}
 [materials.ceiling]
 diffuse = 0.8
-
+{sided}
 [materials.floor]
 diffuse = 0.3
-
-{first}"
+{sided}
+{wood}{own}"
     );
     if kind == RoomKind::Daylit {
         daylit(&mut text, size);
@@ -107,9 +114,7 @@ diffuse = 0.3
         closed(&mut text, size);
         panels(&mut text, size);
     }
-    if kind != RoomKind::Empty {
-        furniture(&mut text, [width, depth]);
-    }
+    text += &furnished;
     finish(&mut text, kind, size);
     text
 }

@@ -14,6 +14,7 @@ use isolux_formats::scene_toml::{SkyAsked, put_sky};
 use isolux_formats::{Loaded, Problem, Problems, Reach};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What comes before the name of a scene that is built in.
 const BUILTIN: &str = "builtin:";
@@ -35,6 +36,9 @@ pub(crate) fn reading_of(flags: &Flags) -> Result<Reading, Failure> {
 
 /// What the command was asked for.
 static ASKED: OnceLock<Reading> = OnceLock::new();
+
+/// Whether something was read that a sky is for, or that it was said of that it is not.
+static SKY_HAD_A_PLACE: AtomicBool = AtomicBool::new(false);
 
 /// From now on scenes are read like this.
 pub(crate) fn read_as(reading: Reading) {
@@ -114,6 +118,7 @@ pub(crate) fn is_builtin(source: &Path) -> bool {
 /// Reads what a scene is made of, below the sky that is asked for.
 pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
     let mut loaded = read_parts_alone(source)?;
+    SKY_HAD_A_PLACE.store(true, Ordering::Relaxed);
     if let Some(sky) = reading().sky {
         let told = put_sky(&mut loaded.value, &sky, reach()).map_err(bad_file)?;
         loaded.warnings.extend(told);
@@ -123,10 +128,18 @@ pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
 
 /// Says that a map, whose light is known, takes no sky.
 pub(crate) fn warn_of_sky(map: &Path) {
+    SKY_HAD_A_PLACE.store(true, Ordering::Relaxed);
     if reading().sky.is_some() {
         let what =
             format!("{}: is a map, whose light stays as it is: `--sky` is left out", map.display());
         note(Note::Warning, what);
+    }
+}
+
+/// Says that a sky was asked for where nothing was read that could be below one.
+pub(crate) fn warn_of_idle_sky() {
+    if reading().sky.is_some() && !SKY_HAD_A_PLACE.load(Ordering::Relaxed) {
+        note(Note::Warning, "--sky: no scene was read, so that it is left out");
     }
 }
 

@@ -146,7 +146,7 @@ fn grids_that_are_marked_are_judged_as_marked_and_nowhere_else() {
         grids.iter().map(|grid| grid["name"].as_str().unwrap().to_owned()).collect()
     };
     assert_eq!(names("map.glb"), ["route", "hall"]);
-    assert_eq!(home.run(&["scene", "map.glb", "-o", "again"]).code, 0);
+    assert_eq!(home.run(&["scene", "room.toml", "-o", "again"]).code, 0);
     assert_eq!(names("again/scene.toml"), ["route", "hall"]);
     let again = home.run(&["grid", "again/scene.toml", "--emergency", "as-marked", "--json"]);
     assert_eq!(again.json()["requirements"].as_array().unwrap().len(), 5, "{again:?}");

@@ -53,6 +53,12 @@ fn what_says_nothing_of_luminances_is_refused() {
         let ran = home.run(flags);
         assert!(ran.code == 2 && ran.err.contains(words), "{flags:?}: {ran:?}");
     }
-    let above = home.run(&[&["grid", "room.toml", "--height", "0.75"], &GRID[2..]].concat());
+    let above = home.run(
+        &[
+            &["grid", "room.toml", "--corner", "1,1,0.1", "--u", "2,0,0", "--v", "0,2,0"],
+            &GRID[2..],
+        ]
+        .concat(),
+    );
     assert!(above.err.contains("put the grid on what is looked at"), "{above:?}");
 }

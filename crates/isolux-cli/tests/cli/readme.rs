@@ -4,9 +4,9 @@ use crate::ran::Home;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Words of commands that take minutes, serve until they are stopped, or need a copy of the repository.
-const LEFT_OUT: [&str; 7] =
-    ["--live", " view ", "cargo ", " audit ", " validate ", " compare ", " demo"];
+/// Words of commands that take minutes, serve until they are stopped, need a copy of the repository or a file of weather.
+const LEFT_OUT: [&str; 8] =
+    ["--live", " view ", "cargo ", " audit ", " validate ", " compare ", " demo", "--weather "];
 
 /// A limit for runs: their maps are valid, whatever their error.
 const TIME_LIMIT: &str = "--time-limit 1s";

@@ -67,6 +67,9 @@ fn skies_in_words_are_told_in_words() {
     let wrong = home.run(&["check", "floor.obj", "--sky", "cloudy"]);
     assert_eq!(wrong.code, 2, "{wrong:?}");
     assert!(wrong.err.contains("there is no sky `cloudy`"), "{wrong:?}");
+    assert!(!wrong.err.contains("line"), "words have no lines: {wrong:?}");
+    let idle = home.run(&["new", "empty", "-o", "room.toml", "--sky", "overcast"]);
+    assert!(idle.err.contains("no scene was read"), "{idle:?}");
 }
 
 #[test]

@@ -5,12 +5,15 @@ use crate::units::Rgb;
 use isolux_geometry::Point;
 use rayon::prelude::*;
 use serde::Serialize;
+use std::io;
 
 /// Bytes that are hashed at once, at least.
 const AT_ONCE: usize = 1 << 16;
 
-/// Luminaires that are written by one task.
-const TOGETHER: usize = 512;
+/// Luminaires that are written by one task, and tasks whose texts are in memory together: a luminaire with a measured table has some
+/// twenty kilobytes of text.
+const TOGETHER: usize = 64;
+const TASKS: usize = 16;
 
 impl Scene {
     /// A hash (BLAKE3, hexadecimal) of everything that light depends on: geometry as the ray kernel
@@ -91,12 +94,41 @@ fn update_json(hasher: &mut blake3::Hasher, value: &impl Serialize) {
     update_text(hasher, &json(value));
 }
 
-/// The same of many plain values, on all threads.
+/// The same of many plain values, on all threads. They are written twice, as their length comes first and their text is too long to keep.
 fn update_json_of_each(hasher: &mut blake3::Hasher, values: &[impl Serialize + Sync]) {
-    let parts: Vec<String> = values.par_chunks(TOGETHER).map(|some| json(&some)).collect();
-    // Without the brackets of the parts.
-    let inner: Vec<&str> = parts.iter().map(|part| &part[1..part.len() - 1]).collect();
-    update_text(hasher, &format!("[{}]", inner.join(",")));
+    let written: usize = values.par_iter().map(json_length).sum();
+    // With brackets about all, and a comma between two.
+    let length = written + values.len().saturating_sub(1) + 2;
+    hasher.update(&(length as u64).to_le_bytes());
+    hasher.update(b"[");
+    for (number, some) in values.chunks(TOGETHER * TASKS).enumerate() {
+        let parts: Vec<String> = some.par_chunks(TOGETHER).map(|some| json(&some)).collect();
+        for (index, part) in parts.iter().enumerate() {
+            hasher.update(if number + index > 0 { b"," } else { b"" });
+            hasher.update(&part.as_bytes()[1..part.len() - 1]);
+        }
+    }
+    hasher.update(b"]");
+}
+
+/// Bytes that are counted and let go.
+struct Counted(usize);
+
+impl io::Write for Counted {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 += bytes.len();
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+fn json_length(value: &impl Serialize) -> usize {
+    let mut counted = Counted(0);
+    serde_json::to_writer(&mut counted, value).expect("plain values always have a JSON text");
+    counted.0
 }
 
 fn json(value: &impl Serialize) -> String {
@@ -107,4 +139,21 @@ fn json(value: &impl Serialize) -> String {
 fn update_text(hasher: &mut blake3::Hasher, text: &str) {
     hasher.update(&(text.len() as u64).to_le_bytes());
     hasher.update(text.as_bytes());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Piece by piece the bytes are those of the whole text.
+    #[test]
+    fn many_values_are_hashed_as_one_list() {
+        for count in [0, 1, 2, TOGETHER, TOGETHER + 1, 2 * TOGETHER * TASKS + 3] {
+            let values: Vec<(usize, String)> = (0..count).map(|k| (k, "x".repeat(k % 7))).collect();
+            let [mut whole, mut pieces] = [blake3::Hasher::new(), blake3::Hasher::new()];
+            update_json(&mut whole, &values);
+            update_json_of_each(&mut pieces, &values);
+            assert_eq!(whole.finalize(), pieces.finalize(), "{count}");
+        }
+    }
 }

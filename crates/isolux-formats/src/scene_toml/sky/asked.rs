@@ -104,7 +104,11 @@ pub fn put_sky(
         );
         context.findings.warning("", what, "nothing needs to be done if that is meant");
     }
-    let loaded = context.finish(found)?;
+    let in_words = matches!(asked, SkyAsked::Lines(_));
+    let without_place = |problem| without_place(problem, in_words);
+    let loaded = context
+        .finish(found)
+        .map_err(|Problems(all)| Problems(all.into_iter().map(without_place).collect()))?;
     let before = (parts.luminaires.clone(), parts.fittings.clone(), parts.groups.clone());
     leave_out_far(parts);
     groups::put(parts, loaded.value);
@@ -112,8 +116,7 @@ pub fn put_sky(
         (parts.luminaires, parts.fittings, parts.groups) = before;
         return Err(problems);
     }
-    let in_words = matches!(asked, SkyAsked::Lines(_));
-    Ok(loaded.warnings.into_iter().map(|w| without_place(w, in_words)).collect())
+    Ok(loaded.warnings.into_iter().map(without_place).collect())
 }
 
 /// Takes out what is infinitely far away.

@@ -45,11 +45,14 @@ pub fn foresee(
     check(scene, request)?;
     let run = Run::new(scene, request);
     let lighting = Lighting::new(scene);
-    let mut seen = Foreseen { receivers: 0, finish: None };
+    let mut seen = Foreseen { receivers: 0, receivers_so_far: 0, finish: None };
     let mut last_s = 0.0;
     pilot::foresee(scene, &lighting, &run.pilot_request(), &mut |round| {
-        seen =
-            Foreseen { receivers: round.receivers_then.ceil() as u64, finish: run.foreseen(round) };
+        seen = Foreseen {
+            receivers: round.receivers_then.ceil() as u64,
+            receivers_so_far: round.receivers as u64,
+            finish: run.foreseen(round),
+        };
         let round_s = run.elapsed_s() - mem::replace(&mut last_s, run.elapsed_s());
         last_s + NEXT_ROUND_RATIO * round_s < patience.as_secs_f64()
     });
