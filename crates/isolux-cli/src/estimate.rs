@@ -9,6 +9,8 @@ use std::time::Duration;
 
 /// Elements, sums and gathered rays of a receiver: 2900 in the demo interior.
 const BYTES_A_RECEIVER: u64 = 2900;
+/// The part of them that a receiver has when the pilot is asked. What the pilot took beside is of luminaires, and stays.
+const BYTES_IN_PILOT: u64 = 1900;
 /// From this share of the most on, the least is not told apart: memory is told to a fifth.
 const ALIKE: f64 = 0.8;
 /// How long a pilot may look, its first survey aside, before it is asked what it has seen.
@@ -47,8 +49,10 @@ impl Estimate {
         let taken = isolux_memory::peak_bytes();
         let seen = foresee(scene, request, PATIENCE)?;
         let receivers_least = seen.receivers_so_far.min(seen.receivers);
+        let of_pilot = isolux_memory::peak_bytes() - taken;
+        let beside = taken + of_pilot.saturating_sub(seen.receivers_so_far * BYTES_IN_PILOT);
         let memory_bytes =
-            |receivers: u64| (taken + receivers * BYTES_A_RECEIVER).min(request.max_memory_bytes);
+            |receivers: u64| (beside + receivers * BYTES_A_RECEIVER).min(request.max_memory_bytes);
         let limit_s = request.time_limit.map_or(f64::INFINITY, |limit| limit.as_secs_f64());
         let limited = |time_s: f64| time_s.min(limit_s);
         Ok(Self {

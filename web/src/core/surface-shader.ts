@@ -248,8 +248,9 @@ void main() {
   float f0 = (vGlass.w - 1.0) / (vGlass.w + 1.0);
   f0 *= f0;
   float r = f0 + (1.0 - f0) * power5(1.0 - clamp(-dot(view, n), 0.0, 1.0));
-  // All inner reflections of a pane summed.
-  vec3 t = vGlass.rgb, all = (1.0 - r) * (1.0 - r) / (1.0 - r * r * t * t);
+  // All inner reflections of a pane summed. What slants in the glass goes a longer way; an index of one is that of a film.
+  float c = clamp(-dot(view, n), 0.0, 1.0), inside = sqrt(max(0.01, 1.0 - (1.0 - c * c) / (vGlass.w * vGlass.w)));
+  vec3 t = vGlass.w == 1.0 ? vGlass.rgb : pow(vGlass.rgb, vec3(1.0 / inside)), all = (1.0 - r) * (1.0 - r) / (1.0 - r * r * t * t);
   bool isLuminance = uOutput == 1 || uOutput == 3, isSeen = isLuminance || uMode == 0;
 #if PASS == 0
   vec3 through = t * all;

@@ -55,14 +55,15 @@ pub(crate) struct GridYear {
 /// A figure with its interval.
 pub(super) fn interval(figure: &Jackknifed) -> Figure {
     let half = STUDENT * figure.standard_error();
-    let value = figure.value;
+    // Without its bias a small figure may be below nothing.
+    let value = figure.value.max(0.0);
     Figure { value, low: (value - half).max(0.0), high: value + half }
 }
 
 /// The same, of a share: at most one.
 fn share(figure: &Jackknifed) -> Figure {
     let of = interval(figure);
-    Figure { high: of.high.min(1.0), ..of }
+    Figure { value: of.value.min(1.0), high: of.high.min(1.0), ..of }
 }
 
 impl GridYear {

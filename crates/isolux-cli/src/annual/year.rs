@@ -8,6 +8,9 @@ use std::f64::consts::PI;
 
 /// Reinhart's subdivision of the sky, as the five-phase method takes it.
 const MULTIPLIER: u32 = 4;
+/// Reflected sunlight comes from all patches so near to the sun, rad: half the width of a patch of Tregenza. It varies little with the
+/// place of the sun, and the paths of a single patch of Reinhart are few.
+const ABOUT_SUN_RAD: f64 = 6.0 * PI / 180.0;
 
 /// A year, prepared for sums over patches.
 pub(super) struct Year {
@@ -26,8 +29,9 @@ pub(super) struct SkyHour {
     pub(super) sun: Direction,
     /// Of a surface that faces the sun, by the sun alone, lx.
     pub(super) sun_normal_lx: f64,
-    /// The patch about the sun, and the luminance of that patch that gives as much light as the sun, cd/m2.
-    pub(super) sun_patch: (usize, f64),
+    /// The patches about the sun, and the luminance there that gives as much light as the sun, cd/m2.
+    pub(super) about_sun: Vec<u32>,
+    pub(super) about_sun_cd_m2: f64,
     /// Of open ground, by the sky alone, lx.
     pub(super) diffuse_horizontal_lx: f64,
     /// Whether it is one of the hours of use.
@@ -42,7 +46,9 @@ impl Year {
         ground_reflectance: f64,
     ) -> Self {
         let patches = SkyPatches::reinhart(MULTIPLIER).expect("a subdivision of Reinhart's");
-        let one = |hour: &DaylightHour| SkyHour::of(hour, &patches, used, ground_reflectance);
+        let middles: Vec<Direction> = (0..patches.count()).map(|k| patches.middle(k)).collect();
+        let one =
+            |hour: &DaylightHour| SkyHour::of(hour, (&patches, &middles), used, ground_reflectance);
         let hours = year.hours.par_iter().map(one).collect();
         let used_h = all.iter().filter(|hour| is_used(hour.hour, used)).count() as f64;
         let overcast = GeneralSky::cie(1, Direction::Z).and_then(|sky| sky.with_horizontal_lx(1.0));
@@ -55,7 +61,7 @@ impl Year {
 impl SkyHour {
     fn of(
         hour: &DaylightHour,
-        patches: &SkyPatches,
+        (patches, middles): (&SkyPatches, &[Direction]),
         used: (u32, u32),
         ground_reflectance: f64,
     ) -> Self {
@@ -65,16 +71,26 @@ impl SkyHour {
         let global_lx = diffuse_horizontal_lx + sun_normal_lx * hour.sun.to_vector().z;
         let mut luminances_cd_m2 = luminances_cd_m2(sky, patches);
         luminances_cd_m2.push((ground_reflectance * global_lx / PI) as f32);
-        let patch = patches.of(hour.sun).unwrap_or(0);
+        let about_sun = about(hour.sun, patches, middles);
+        let steradians: f64 = about_sun.iter().map(|&k| patches.steradians(k as usize)).sum();
         Self {
             luminances_cd_m2,
             sun: hour.sun,
             sun_normal_lx,
-            sun_patch: (patch, sun_normal_lx / patches.steradians(patch)),
+            about_sun,
+            about_sun_cd_m2: sun_normal_lx / steradians,
             diffuse_horizontal_lx,
             is_used: is_used(hour.hour, used),
         }
     }
+}
+
+/// The patch of the sun, and those whose middles are near.
+fn about(sun: Direction, patches: &SkyPatches, middles: &[Direction]) -> Vec<u32> {
+    let own = patches.of(sun).unwrap_or(0);
+    let least = libm::cos(ABOUT_SUN_RAD);
+    let is_near = |k: &u32| *k as usize == own || middles[*k as usize].dot(sun) >= least;
+    (0..middles.len() as u32).filter(is_near).collect()
 }
 
 /// Whether an hour, by its end, is one of use.

@@ -1,7 +1,7 @@
 //! A lamp over a pane of glass over a black floor, under a black ceiling.
 //!
 //! Unpolarized light is half of each polarization, and each goes its own way through both faces: with
-//! the reflectance R of one face for it (Fresnel) and the share t left by one crossing of the pane,
+//! the reflectance R of one face for it (Fresnel) and the share t left by one crossing of the pane on the way that light slants there,
 //! the reflections inside sum to `T = (1 - R)^2 t / (1 - R^2 t^2)` and
 //! `R' = R (1 + t T)`; the answer is the mean over the two polarizations (Born and Wolf, "Principles of
 //! Optics", 1.5 and 7.6, without interference). Averaging R first is wrong by up to some per cent at
@@ -20,7 +20,7 @@ const LAMP_M: [f64; 3] = [0.0, 0.0, 2.0];
 const PANE_Z_M: f64 = 1.0;
 const CEILING_Z_M: f64 = 3.0;
 const IOR: f64 = 1.5;
-/// Share left by one crossing of the tinted pane.
+/// Share left by one crossing of the tinted pane at right angles.
 const TINT: Rgb = Rgb::new(0.9, 0.7, 0.4);
 
 pub(super) fn cases() -> [Case; 2] {
@@ -80,8 +80,11 @@ fn fresnel(cos_theta: f64) -> [f64; 2] {
     [across * across, along * along]
 }
 
-/// At an angle of incidence, with the share `t` left by one crossing.
-pub(super) fn pane(cos_theta: f64, t: f64) -> Pane {
+/// At an angle of incidence, with the share left by one crossing at right angles. Light that slants in the glass goes a longer way through
+/// it (Bouguer's law).
+pub(super) fn pane(cos_theta: f64, straight_on: f64) -> Pane {
+    let cos_inside = (1.0 - (1.0 - cos_theta * cos_theta) / (IOR * IOR)).sqrt();
+    let t = libm::pow(straight_on, 1.0 / cos_inside);
     let [across, along] = fresnel(cos_theta).map(|r| {
         let transmitted = (1.0 - r) * (1.0 - r) * t / (1.0 - r * r * t * t);
         Pane { transmitted, reflected: r * (1.0 + t * transmitted) }

@@ -1,7 +1,7 @@
 //! Reflection and refraction at smooth dielectrics (Born and Wolf, "Principles of optics", 1.5).
 
 use isolux::geometry::{Direction, Normal};
-use isolux::scene::Dielectric;
+use isolux::scene::{Dielectric, Pane};
 use isolux::units::Rgb;
 
 /// Shares of the luminance seen in the mirror direction and through the surface.
@@ -39,12 +39,10 @@ impl Interface {
         Self { reflected: Rgb::grey(r), transmitted: Some((passed, refracted)) }
     }
 
-    /// Two parallel faces with all reflections between them, 2 r / (1 + r) for each polarisation;
-    /// what is not reflected passes straight on, less what the pane absorbs.
+    /// Two parallel faces with all reflections between them: what is transmitted goes straight on.
     fn pane(glass: &Dielectric, direction: Direction, cos: f64) -> Self {
-        let r = mean(fresnel(glass.ior, cos).map(|r| 2.0 * r / (1.0 + r)));
-        let passed = glass.transmittance * (1.0 - r);
-        Self { reflected: Rgb::grey(r), transmitted: Some((passed, direction)) }
+        let Pane { reflectance, transmittance } = glass.pane(cos);
+        Self { reflected: reflectance, transmitted: Some((transmittance, direction)) }
     }
 }
 

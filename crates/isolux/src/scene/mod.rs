@@ -18,6 +18,7 @@ mod material;
 mod mounted;
 mod north;
 mod origin;
+pub(crate) mod pane;
 mod parts;
 mod problem;
 mod relight;
@@ -34,6 +35,7 @@ pub use luminaire::{AreaLuminaire, Fitting, Luminaire, LuminaireKind, Maintenanc
 pub use luminous_area::{AreaShape, LuminousArea};
 pub use material::{Body, Coat, Dielectric, Finish, Gloss, Material, Reflectance};
 pub use north::world_from_sky;
+pub use pane::Pane;
 pub use parts::{SceneParts, Shape, UpAxis};
 pub use problem::{Place, SceneProblem};
 pub use requirement::{Condition, EmergencyArea, GridQuantity, Requirement};

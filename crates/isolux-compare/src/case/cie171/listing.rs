@@ -74,11 +74,6 @@ pub const fn left_out() -> &'static [LeftOut] {
     const GROUND: &str = "under a sky that is not uniform the ground beside a building has no short exact illuminance";
     &[
         LeftOut {
-            number: "5.5",
-            part: "absorption within the glass",
-            reason: "a thin pane of isolux absorbs the same share at every angle, not more on a longer way",
-        },
-        LeftOut {
             number: "5.8",
             part: "a room of unequal edges",
             reason: "only its balance of energy is exact, not a value at a place",

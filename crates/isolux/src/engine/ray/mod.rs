@@ -22,7 +22,7 @@ pub(crate) use noise::Noise;
 pub(crate) use path::{Dice, MAX_SPECULAR, PathEnd, follow, follow_on, specular_step};
 pub use place::ProbePoint;
 pub(crate) use place::{INWARD_ROUNDINGS, Places, place_key};
-pub(crate) use scatter::{Scattered, luminance_ratio, pane};
+pub(crate) use scatter::{Scattered, luminance_ratio};
 #[cfg(test)]
 pub(crate) use scatter::{reflect, refract, specular_share};
 pub use sensor::Sensor;

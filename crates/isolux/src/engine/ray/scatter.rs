@@ -2,7 +2,8 @@
 
 use super::surface::SurfacePoint;
 use crate::sampling::Ggx;
-use crate::scene::{Body, Dielectric, Finish};
+use crate::scene::pane::{fresnel, mean};
+use crate::scene::{Body, Dielectric, Finish, Pane};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray, Vector};
 
@@ -137,7 +138,7 @@ pub(crate) fn refract(
     let cos = -incoming.cos(surface.shading);
     let ior = if surface.back { 1.0 / glass.ior } else { glass.ior };
     let (reflected, transmitted, through) = if glass.thin {
-        let Pane { reflectance, transmittance } = pane(glass, cos);
+        let Pane { reflectance, transmittance } = glass.pane(cos);
         (reflectance, transmittance, Some(incoming))
     } else {
         let reflectance = mean(fresnel(cos, ior));
@@ -173,48 +174,6 @@ pub(crate) fn luminance_ratio(body: &Body, surface: &SurfacePoint, onwards: Dire
         }
         _ => 1.0,
     }
-}
-
-/// Reflectance and transmittance of a pane for unpolarized light, with all inner reflections.
-pub(crate) struct Pane {
-    reflectance: Rgb,
-    pub(crate) transmittance: Rgb,
-}
-
-/// A pane of two parallel faces in one surface. For each polarization, with the reflectance R of a face and
-/// the share t left by one crossing, `T = (1 - R)^2 t / (1 - R^2 t^2)` is transmitted and `R (1 + t T)`
-/// reflected (Born and Wolf, "Principles of Optics", 7.6, without interference). The result is the mean of
-/// the two polarizations.
-pub(crate) fn pane(glass: &Dielectric, cos: f64) -> Pane {
-    let faces = fresnel(cos, glass.ior);
-    let transmitted = |r: f64, t: f64| {
-        let lost = 1.0 - r * r * t * t;
-        if lost > 0.0 { (1.0 - r) * (1.0 - r) * t / lost } else { 0.0 }
-    };
-    Pane {
-        reflectance: glass
-            .transmittance
-            .map(|t| mean(faces.map(|r| r * (1.0 + t * transmitted(r, t))))),
-        transmittance: glass.transmittance.map(|t| mean(faces.map(|r| transmitted(r, t)))),
-    }
-}
-
-/// Mean of the two polarizations.
-fn mean([a, b]: [f64; 2]) -> f64 {
-    0.5 * (a + b)
-}
-
-/// Fresnel reflectance for both polarizations, from the side of index 1 to that of index `ior`.
-fn fresnel(cos: f64, ior: f64) -> [f64; 2] {
-    let cos = cos.clamp(0.0, 1.0);
-    let sin2 = (1.0 - cos * cos) / (ior * ior);
-    if sin2 >= 1.0 {
-        return [1.0; 2];
-    }
-    let inside = (1.0 - sin2).sqrt();
-    let perpendicular = (cos - ior * inside) / (cos + ior * inside);
-    let parallel = (ior * cos - inside) / (ior * cos + inside);
-    [perpendicular * perpendicular, parallel * parallel]
 }
 
 /// Direction of the refracted ray by Snell's law; `None` at total reflection.

@@ -1,7 +1,7 @@
 //! Fresnel, Snell, and what is left of the light.
 
 use super::*;
-use crate::engine::ray::{Scattered, SurfacePoint, pane, refract, specular_step};
+use crate::engine::ray::{Scattered, SurfacePoint, refract, specular_step};
 use crate::scene::{Body, Dielectric};
 use isolux_geometry::{Direction, Normal};
 
@@ -127,12 +127,12 @@ fn a_clear_pane_passes_what_both_faces_and_their_echoes_leave() {
     let cos = |deg: f64| libm::cos(deg.to_radians());
     for ior in [1.33, 1.5, 1.9] {
         // Head-on both polarizations are one: (1 - R) / (1 + R) = 2 n / (n2 + 1).
-        let head_on = pane(&glass(ior, true), 1.0).transmittance.luminance();
+        let head_on = glass(ior, true).pane(1.0).transmittance.luminance();
         assert!((head_on - 2.0 * ior / (ior * ior + 1.0)).abs() < 1e-12);
         let passed =
-            ANGLES_DEG.map(|deg| pane(&glass(ior, true), cos(deg)).transmittance.luminance());
+            ANGLES_DEG.map(|deg| glass(ior, true).pane(cos(deg)).transmittance.luminance());
         assert!(passed.windows(2).all(|w| w[1] < w[0] + 0.02), "{passed:?}");
-        assert!(pane(&glass(ior, true), 0.0).transmittance.luminance().abs() < 1e-12);
+        assert!(glass(ior, true).pane(0.0).transmittance.luminance().abs() < 1e-12);
     }
 }
 

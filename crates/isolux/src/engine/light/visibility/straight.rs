@@ -2,7 +2,7 @@
 
 use super::super::lighting::Lighting;
 use super::super::sources::Target;
-use crate::engine::ray::{SurfacePoint, pane};
+use crate::engine::ray::SurfacePoint;
 use crate::scene::Body;
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray, Vector};
@@ -61,7 +61,7 @@ impl Lighting<'_> {
             return None;
         };
         let direction = Vector::from(ray.direction).direction()?;
-        glass.thin.then(|| pane(glass, direction.cos(surface.shading).abs()).transmittance)
+        glass.thin.then(|| glass.pane(direction.cos(surface.shading).abs()).transmittance)
     }
 }
 

@@ -13,8 +13,12 @@ pub(super) const FRESH_MOST_RAYS: f64 = 1024.0;
 pub(super) const OF_FEW: f64 = 2.131 / 1.96;
 
 /// The number of rays of a replicate in the trial that measures noise: half of the fewest, since the trial is
-/// discarded.
+/// discarded, where the map has a value.
 pub(super) const TRIAL_RAYS: u32 = 4;
+
+/// The same in free space, where the map has no value to tell how much few rays may miss: with all replicates 1024 rays. They miss what
+/// fills a three-hundredth of the view once in thirty times.
+pub(super) const TRIAL_RAYS_IN_SPACE: u32 = 64;
 
 /// The effort of a reading, from a trial.
 pub(super) struct Needed {

@@ -21,7 +21,7 @@ use crate::map::{Illuminance, IlluminationMap, Standing, VertexLight};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use effort::{FRESH_REPLICATES, LOOKS, OF_FEW, TRIAL_RAYS};
+use effort::{FRESH_REPLICATES, LOOKS, OF_FEW, TRIAL_RAYS, TRIAL_RAYS_IN_SPACE};
 use isolux_geometry::Ray;
 pub use pictured::PictureLight;
 use shared_noise::SharedNoise;
@@ -230,7 +230,7 @@ impl<'a> MapReader<'a> {
     /// seen.
     pub fn measure(&self, at: ProbePoint) -> Option<Illuminance> {
         self.probe(at).or_else(|| {
-            let trial = Gatherer::in_space(self.scene, at.position, at.normal, TRIAL_RAYS);
+            let trial = Gatherer::in_space(self.scene, at.position, at.normal, TRIAL_RAYS_IN_SPACE);
             if !self.sees_light(&trial) {
                 return None;
             }

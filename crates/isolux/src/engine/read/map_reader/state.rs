@@ -1,6 +1,6 @@
 //! The state of a reader, and the parts that its readings consist of.
 
-use super::effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, TRIAL_RAYS};
+use super::effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed};
 use super::shared_noise::SharedNoise;
 use super::told::Allowance;
 use crate::elements::Element;
@@ -160,10 +160,11 @@ impl<'a> MapReader<'a> {
     pub(super) fn rays_needed(&self, trial: Gatherer, goal: f64, key: Key) -> Needed {
         let of_trial = (FRESH_REPLICATES, key.with(0));
         let Gathered { variance, .. } = self.gather(trial, self.direct_at_ends(), of_trial);
-        let rays = f64::from(TRIAL_RAYS) * times_rays(variance, goal);
-        let rays = libm::log2(rays.clamp(FRESH_FEWEST_RAYS, FRESH_MOST_RAYS));
+        let tried = f64::from(trial.rays);
+        let rays = tried * times_rays(variance, goal);
+        let rays = libm::log2(rays.clamp(FRESH_FEWEST_RAYS.max(tried), FRESH_MOST_RAYS));
         let rays: u32 = 1 << libm::round(rays) as u32;
-        let finer = f64::from(TRIAL_RAYS) / f64::from(rays);
+        let finer = tried / f64::from(rays);
         Needed { rays, variance: variance * libm::pow(finer, 2.0 * ORDER_CLOSE_BY) }
     }
 
