@@ -232,7 +232,7 @@ fn furniture(text: &mut String, [width, depth]: [f64; 2]) {
         }
     }
     if width > 2.0 && depth > 2.0 {
-        slab(text, "cupboard", [width - 0.45, 0.0], ([0.0, 0.05, 0.0], [0.45, 1.05, 1.8]));
+        slab(text, "cupboard", [width - 0.46, 0.0], ([0.0, 0.05, 0.0], [0.45, 1.05, 1.8]));
     }
 }
 

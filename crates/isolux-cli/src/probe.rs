@@ -163,7 +163,8 @@ pub(crate) fn traced(
         return Err(source::no_light(source, scene));
     }
     let tracer = PathTracer::new(scene);
-    if tracer.leaves_caustics() {
+    // Rays that end where they begin are direct light, which has all that is asked for.
+    if tracer.leaves_caustics() && settings.rays > 1 {
         note(
             Note::Warning,
             "light that glass, gloss and curved mirrors throw on surfaces is left out of paths, and of their standard \

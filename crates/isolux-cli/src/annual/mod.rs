@@ -22,7 +22,7 @@ use isolux::geometry::Point;
 use isolux::photometry::{GeneralSky, Sky};
 use isolux::scene::{CalculationGrid, Luminaire, LuminaireKind, Scene, world_from_sky};
 use isolux::units::Rgb;
-use isolux_formats::epw;
+use isolux_formats::epw::{self, Weather};
 use place::PlaceYear;
 use rayon::prelude::*;
 use std::path::Path;
@@ -61,12 +61,7 @@ pub(crate) fn of_scene(
     scene: &Scene,
     grids: Vec<CalculationGrid>,
 ) -> Result<(String, Vec<Found>), Failure> {
-    // What it lacks of a year is refused here.
-    let weather = epw::read(file).map_err(bad_file)?.value;
-    if weather.hours.len() < HOURS {
-        let what = format!("has {} hours, where a year has {HOURS}", weather.hours.len());
-        return Err(wrong_weather(file, &what));
-    }
+    let weather = weather(file)?;
     let days = weather.daylight().map_err(|what| wrong_weather(file, &what))?;
     if days.unknown > 0 {
         let what =
@@ -82,6 +77,16 @@ pub(crate) fn of_scene(
     let found = grids.into_iter().map(|grid| found(flags, &daylight, grid, &year));
     let found = found.collect::<Result<_, _>>();
     found.map(|found| (weather.place.name, found))
+}
+
+/// A file of weather; what it lacks of a year is refused.
+pub(crate) fn weather(file: &Path) -> Result<Weather, Failure> {
+    let weather = epw::read(file).map_err(bad_file)?.value;
+    if weather.hours.len() < HOURS {
+        let what = format!("has {} hours, where a year has {HOURS}", weather.hours.len());
+        return Err(wrong_weather(file, &what));
+    }
+    Ok(weather)
 }
 
 fn wrong_weather(file: &Path, what: &str) -> Failure {

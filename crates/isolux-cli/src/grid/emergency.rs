@@ -110,8 +110,8 @@ pub(super) fn run(
 pub(crate) fn lit(scene: &Scene, source: &Path) -> Result<Scene, Failure> {
     scene.in_emergency().ok_or_else(|| {
         Failure::bad_input(format!(
-            "emergency lighting: no luminaire of {} is marked for it; give some `emergency = true` or `emergency_flux_share = 0.1`, \
-             and solve a map again",
+            "emergency lighting: no luminaire of {} is marked for it; give some `emergency = true` or `emergency_flux_share = 0.1` \
+             in the scene; a group that is dimmed to nothing has none",
             source.display()
         ))
     })

@@ -51,7 +51,7 @@ pub(crate) fn grids(
 }
 
 /// Gives grids the maintenance factor that is asked for.
-pub(super) fn maintain(
+pub(crate) fn maintain(
     grids: &mut [CalculationGrid],
     required: &RequiredFlags,
     (source, scene): (&Path, &Scene),

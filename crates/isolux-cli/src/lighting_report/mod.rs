@@ -13,14 +13,14 @@ use crate::grid::{choice, decide, emergency, requirement};
 use crate::maintained::Maintained;
 use crate::origin::Extent;
 use crate::output::OutputPath;
+use crate::quantity::significant;
 use crate::shown::name;
-use crate::{check, energy, map_file, source};
+use crate::{annual, check, energy, map_file, source};
 use isolux::engine::{MapReader, reference_lx};
 use isolux::map::{IlluminationMap, Verdict};
-use isolux::scene::{CalculationGrid, LuminaireKind, Scene, UpAxis};
+use isolux::scene::{CalculationGrid, Luminaire, LuminaireKind, Scene, UpAxis};
 use isolux_report::{Emergency, Finding, Language, Maintenance, Project, Report, Severity};
 use serde::Serialize;
-use std::path::Path;
 
 /// Files of reports.
 const ENDS: [&str; 2] = ["html", "pdf"];
@@ -79,6 +79,14 @@ impl Opened {
         let loaded = source::read_scene_with_warnings(&flags.source)?;
         let scene = loaded.value;
         let grids = grids(flags, &scene)?;
+        // What else is asked for is looked at before anything is computed.
+        views::cameras(flags, &scene)?;
+        if scene.grids().iter().any(|grid| grid.emergency.is_some()) {
+            emergency::lit(&scene, &flags.source)?;
+        }
+        if let Some(weather) = &flags.weather {
+            annual::weather(weather)?;
+        }
         let findings = check::findings(&scene, &flags.source, &loaded.warnings);
         // A room with windows alone has a year of daylight, and no light of its own.
         let is_dark = !scene.gives_light() && flags.weather.is_some();
@@ -128,7 +136,7 @@ fn report(flags: &ReportFlags, opened: &Opened, language: Language) -> Result<Re
         scene: facts_of(scene),
         areas,
         luminaires: fixtures::of(scene),
-        emergency: emergency(scene, &flags.source)?,
+        emergency: emergency(flags, scene)?,
         daylight,
         glare,
         views,
@@ -142,15 +150,17 @@ fn report(flags: &ReportFlags, opened: &Opened, language: Language) -> Result<Re
 }
 
 /// What came of the areas of emergency lighting, if there are any.
-fn emergency(scene: &Scene, source: &Path) -> Result<Option<Emergency>, Failure> {
-    let areas: Vec<&CalculationGrid> =
-        scene.grids().iter().filter(|grid| grid.emergency.is_some()).collect();
+fn emergency(flags: &ReportFlags, scene: &Scene) -> Result<Option<Emergency>, Failure> {
+    let source = flags.source.as_path();
+    let mut areas = scene.grids().to_vec();
+    areas.retain(|grid| grid.emergency.is_some());
     if areas.is_empty() {
         return Ok(None);
     }
+    requirement::maintain(&mut areas, &flags.required, (source, scene))?;
     let lit = emergency::lit(scene, source)?;
     let mut requirements = Vec::new();
-    for grid in areas {
+    for grid in &areas {
         requirements.extend(emergency::judged(grid, (&lit, source))?);
     }
     for of in &mut requirements {
@@ -192,8 +202,19 @@ fn facts_of(scene: &Scene) -> isolux_report::Scene {
         maintenance: scene.maintenance().map_or(Maintenance::Initial, |factors| {
             Maintenance::Maintained { least: factors.least, greatest: factors.greatest }
         }),
-        skies: skies.map(|luminaire| name(&luminaire.name)).collect(),
+        skies: skies.map(far_light).collect(),
     }
+}
+
+/// What is infinitely far away with what it brings: of a sky on open ground, of a sun to what faces it.
+fn far_light(luminaire: &Luminaire) -> String {
+    let lx = match &luminaire.kind {
+        LuminaireKind::Sky { sky, .. } => sky.horizontal_lx(),
+        LuminaireKind::Directional { illuminance_lx, .. } => *illuminance_lx,
+        LuminaireKind::Point { .. } => 0.0,
+    };
+    let lx = significant(lx * luminaire.colour.luminance(), 3);
+    format!("{} ({lx} lx)", name(&luminaire.name))
 }
 
 #[cfg_attr(not(feature = "pdf"), expect(clippy::unnecessary_wraps, reason = "PDF may fail"))]

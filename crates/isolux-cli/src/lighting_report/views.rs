@@ -29,7 +29,7 @@ pub(super) fn of(
     Ok((views, glares))
 }
 
-fn cameras(flags: &ReportFlags, scene: &Scene) -> Result<Vec<Camera>, Failure> {
+pub(super) fn cameras(flags: &ReportFlags, scene: &Scene) -> Result<Vec<Camera>, Failure> {
     if flags.camera.is_empty() {
         return Ok(scene.cameras().to_vec());
     }

@@ -154,6 +154,17 @@ fn grids_that_are_marked_are_judged_as_marked_and_nowhere_else() {
     assert_eq!((report.code, report.json()["met"].as_u64()), (0, Some(5)), "{report:?}");
     let text = std::fs::read_to_string(home.path("report.html")).unwrap();
     assert!(text.contains("Emergency lighting") && text.contains("on the centre line"));
+    // With a hundredth of the light only ratios hold, in the report, too.
+    let dimmed = home.run(&[
+        "report",
+        "room.toml",
+        "-o",
+        "dim.html",
+        "--maintenance-factor",
+        "0.01",
+        "--json",
+    ]);
+    assert_eq!((dimmed.code, dimmed.json()["met"].as_u64()), (1, Some(2)), "{dimmed:?}");
 }
 
 #[test]

@@ -2,13 +2,18 @@
 
 use super::cover::values;
 use crate::document::{Block, Cell, Section, Table, numbers, row, words};
-use crate::report::{Report, Severity, Surface};
+use crate::report::{Area, Report, Severity, Surface};
 use crate::words::{Words, fill};
 
 #[expect(clippy::unnecessary_wraps, reason = "sections of a report may be missing")]
 pub(super) fn section(report: &Report, language: &Words) -> Option<Section> {
     let says = &language.assumptions;
-    let mut list = vec![values(report.scene.maintenance, language)];
+    let mut list = Vec::new();
+    // Where all grids have a factor of their own no value of theirs is initial.
+    let is_factored = |area: &Area| area.maintenance_factor != 1.0;
+    if report.areas.is_empty() || !report.areas.iter().all(is_factored) {
+        list.push(values(report.scene.maintenance, language));
+    }
     let factors = report.areas.iter().filter(|area| area.maintenance_factor != 1.0);
     list.extend(factors.map(|area| {
         let factor = language.fixed(area.maintenance_factor, 2);

@@ -2,7 +2,7 @@
 
 use super::least::{LEAST_LX, LEAST_RATIO};
 use crate::document::{Cover, Key, Picture};
-use crate::report::{Area, DaylightArea, Maintenance, Report};
+use crate::report::{Area, DaylightArea, Emergency, Maintenance, Report};
 use crate::words::{Words, fill};
 use isolux::map::Verdict;
 
@@ -48,7 +48,22 @@ fn keys(report: &Report, words: &Words) -> Vec<Key> {
     let years = report.daylight.iter().flat_map(|year| &year.areas);
     let daylight = years.map(|area| daylight(area, words));
     let areas = report.areas.iter().filter_map(|area| electric(area, words));
-    areas.take(MOST_KEYS).chain(daylight.take(MOST_KEYS)).collect()
+    let emergency = report.emergency.as_ref().and_then(|of| emergency(of, words));
+    areas.take(MOST_KEYS).chain(emergency).chain(daylight.take(MOST_KEYS)).collect()
+}
+
+/// `None` where nothing is required.
+fn emergency(of: &Emergency, words: &Words) -> Option<Key> {
+    let verdicts = || of.requirements.iter().map(|requirement| requirement.verdict);
+    let met = verdicts().filter(|verdict| *verdict == Verdict::Met).count();
+    let mut areas: Vec<&str> = of.requirements.iter().map(|of| of.area.as_str()).collect();
+    areas.dedup();
+    Some(Key {
+        title: words.emergency.title.to_owned(),
+        value: format!("{met} / {}", of.requirements.len()),
+        about: format!("EN 1838: {}", areas.join(", ")),
+        verdict: Some(verdicts().reduce(Verdict::and)?),
+    })
 }
 
 fn electric(area: &Area, words: &Words) -> Option<Key> {

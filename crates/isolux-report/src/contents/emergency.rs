@@ -11,19 +11,28 @@ const LEAST_SPREAD: f64 = LEAST_RATIO * 10.0;
 
 /// `None` of a report without areas of emergency lighting.
 pub(super) fn section(report: &Report, language: &Words) -> Option<Section> {
-    let emergency = report.emergency.as_ref()?;
+    let count = report.emergency.as_ref()?.luminaires;
     let says = &language.emergency;
     let of = &language.results;
     let columns = [of.area, of.requirement, of.found, of.result];
     let table = Table {
         caption: says.caption.to_owned(),
         columns: columns.into_iter().map(words).collect(),
-        rows: emergency.requirements.iter().map(|of| cells(of, language)).collect(),
+        rows: rows(report, language).collect(),
         is_dense: false,
     };
-    let lead = fill(says.lead, &[("count", &emergency.luminaires.to_string())]);
+    let lead = fill(says.lead, &[("count", &count.to_string())]);
     let blocks = vec![Block::Text(lead), Block::Table(table)];
     Some(Section { id: "emergency", title: says.title.to_owned(), blocks })
+}
+
+/// A row for each requirement.
+pub(super) fn rows<'a>(
+    report: &'a Report,
+    language: &'a Words,
+) -> impl Iterator<Item = Vec<Cell>> + 'a {
+    let all = report.emergency.iter().flat_map(|emergency| &emergency.requirements);
+    all.map(|of| cells(of, language))
 }
 
 fn cells(of: &EmergencyRequirement, language: &Words) -> Vec<Cell> {

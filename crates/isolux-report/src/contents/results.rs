@@ -1,5 +1,6 @@
 //! What is required and what was found.
 
+use super::emergency;
 use super::least::{LEAST_LX, LEAST_RATIO};
 use crate::document::{Block, Cell, Section, Table, numbers, row, words};
 use crate::report::{Area, Report, Requirement};
@@ -9,17 +10,19 @@ use isolux::scene::{Condition, GridQuantity};
 
 /// `None` of a report without grids.
 pub(super) fn section(report: &Report, language: &Words) -> Option<Section> {
-    if report.areas.is_empty() {
+    if report.areas.is_empty() && report.emergency.is_none() {
         return None;
     }
     let says = &language.results;
-    let all = || report.areas.iter().flat_map(|area| &area.requirements);
-    let count = all().count();
+    let of_areas = report.areas.iter().flat_map(|area| &area.requirements).map(|of| of.verdict);
+    let of_emergency = report.emergency.iter().flat_map(|emergency| &emergency.requirements);
+    let all: Vec<Verdict> = of_areas.chain(of_emergency.map(|of| of.verdict)).collect();
+    let count = all.len();
     let mut blocks = Vec::new();
     if count == 0 {
         blocks.push(Block::Text(says.none.to_owned()));
     } else {
-        let met = all().filter(|requirement| requirement.verdict == Verdict::Met).count();
+        let met = all.iter().filter(|verdict| **verdict == Verdict::Met).count();
         let sentence = match met == count {
             true => says.all_met.to_owned(),
             false => fill(says.some_met, &[("met", &met.to_string()), ("all", &count.to_string())]),
@@ -28,7 +31,9 @@ pub(super) fn section(report: &Report, language: &Words) -> Option<Section> {
         blocks.push(Block::Table(requirements(report, language)));
         blocks.push(Block::Text(says.lead.to_owned()));
     }
-    blocks.push(Block::Table(figures(&report.areas, language)));
+    if !report.areas.is_empty() {
+        blocks.push(Block::Table(figures(&report.areas, language)));
+    }
     Some(Section { id: "results", title: says.title.to_owned(), blocks })
 }
 
@@ -38,6 +43,7 @@ fn requirements(report: &Report, language: &Words) -> Table {
     let rows = report.areas.iter().flat_map(|area| {
         area.requirements.iter().map(|requirement| requirement_row(area, requirement, language))
     });
+    let rows = rows.chain(emergency::rows(report, language));
     Table {
         caption: says.caption.to_owned(),
         columns: columns.into_iter().map(words).collect(),
