@@ -50,7 +50,8 @@ def test_skies_of_dicts_and_of_words(tmp_path: Path, year: Path) -> None:
     clear = {"type": "clear", "horizontal_lx": 12000, "place": place, "time": noon, "sun_normal_lx": 8e4}
     assert sorted(window(sky=clear).luminaires) == ["sky", "sun"]
     mesh = tmp_path / "plane.obj"
-    mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    mesh.write_text("mtllib plane.mtl\nusemtl grey\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (tmp_path / "plane.mtl").write_text("newmtl grey\nKd 0.5 0.5 0.5\n")
     for sky in (clear, "overcast, horizontal_lx=10000", {"weather": year, "time": datetime(2001, 6, 2, 12)}):
         assert "sky" in isolux.load(mesh, sky=sky).luminaires
     with pytest.raises(isolux.InputError, match="sky is 3; give text or a dict"):
