@@ -87,4 +87,4 @@ def test_ctrl_c_keeps_the_rounds_of_a_picture(coarse: isolux.Map) -> None:
 
 def test_ctrl_c_before_there_is_a_pilot_is_no_wrong_input(cube: isolux.Scene) -> None:
     with pytest.raises(KeyboardInterrupt):
-        interrupted(lambda: isolux.parts.make_pilot(cube, accuracy=1e-3, mesh_accuracy=0.002))
+        interrupted(lambda: isolux.parts.make_pilot(cube, accuracy=1e-3, mesh_accuracy=2e-4))

@@ -90,8 +90,8 @@ def write(
             written.table("[[geometry]]", keys, of, dict.fromkeys(keys, ""))
     for place, keys, names in _luminaires(luminaires):
         written.table("[[luminaire]]", keys, place, names)
-    for table, of in rows.items():
-        for place, row in _rows(f"{table}s", of):
+    for table, several in rows.items():
+        for place, row in _rows(f"{table}s", several):
             written.table(f"[[{table}]]", row, place)
     if sky is not None:
         written.table("[sky]", sky, "sky")
