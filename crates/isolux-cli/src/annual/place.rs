@@ -75,8 +75,11 @@ impl PlaceYear {
             ],
             sunny_h: sunny.iter().zip(&year.hours).filter(is_sunny).count() as f64,
             median_lx: told(&median),
-            sky_component: factors(&found, year, |of| vec![&of.direct]),
-            daylight_factor: factors(&found, year, |of| vec![&of.direct, &of.indirect]),
+            // Without the ground, which is the last.
+            sky_component: factors(&found, &year.overcast[..year.patches.count()], |of| {
+                vec![&of.direct]
+            }),
+            daylight_factor: factors(&found, &year.overcast, |of| vec![&of.direct, &of.indirect]),
         }
     }
 }
@@ -105,14 +108,14 @@ fn dot(a: &[f32], b: &[f32]) -> f32 {
     sums.iter().sum::<f32>() + rest
 }
 
-/// Daylight factors by each part of the light, below the CIE overcast sky and a black ground beyond the scene.
+/// Daylight factors by each part of the light, below these luminances of patches and of the ground.
 fn factors(
     found: &[Coefficients],
-    year: &Year,
+    overcast: &[f64],
     parts: impl Fn(&Coefficients) -> Vec<&Vec<f64>>,
 ) -> Jackknifed {
     let of = |c: &Coefficients| {
-        let sum = |of: &Vec<f64>| of.iter().zip(&year.overcast).map(|(c, l)| c * l).sum::<f64>();
+        let sum = |of: &Vec<f64>| of.iter().zip(overcast).map(|(c, l)| c * l).sum::<f64>();
         vec![parts(c).into_iter().map(sum).sum::<f64>()]
     };
     let of_replicates: Vec<Vec<f64>> = found.iter().map(of).collect();

@@ -16,7 +16,7 @@ const ABOUT_SUN_RAD: f64 = 6.0 * PI / 180.0;
 pub(super) struct Year {
     pub(super) patches: SkyPatches,
     pub(super) hours: Vec<SkyHour>,
-    /// Of the patches, below the CIE overcast sky that gives open ground one lux, cd/m2.
+    /// Of the patches, and of the ground at the end, below the CIE overcast sky that gives open ground one lux, cd/m2.
     pub(super) overcast: Vec<f64>,
     /// Hours of use, dark ones as well.
     pub(super) used_h: f64,
@@ -53,7 +53,8 @@ impl Year {
         let used_h = all.iter().filter(|hour| is_used(hour.hour, used)).count() as f64;
         let overcast = GeneralSky::cie(1, Direction::Z).and_then(|sky| sky.with_horizontal_lx(1.0));
         let overcast = overcast.expect("type 1 is one of the fifteen, and has light");
-        let overcast = luminances_cd_m2(&overcast, &patches).into_iter().map(f64::from).collect();
+        let overcast = luminances_cd_m2(&overcast, &patches).into_iter().map(f64::from);
+        let overcast = overcast.chain([ground_reflectance / PI]).collect();
         Self { patches, hours, overcast, used_h }
     }
 }

@@ -37,7 +37,7 @@ pub(crate) struct YearFlags {
     /// Hours of use of every day by standard time, from and to
     #[arg(long, value_name = "FROM..TO", value_parser = quantity::hours_of_day, default_value = "8..18", requires = "weather")]
     pub hours: (u32, u32),
-    /// Reflectance of the ground beyond the scene in the hours of the year; the daylight factor has black ground
+    /// Reflectance of the ground beyond the scene
     #[arg(long, value_name = "SHARE", value_parser = quantity::reflectance, default_value = "0.2", allow_hyphen_values = true, requires = "weather")]
     pub ground_reflectance: f64,
     /// Paths of daylight from every point; more make intervals narrower

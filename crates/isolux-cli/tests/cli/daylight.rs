@@ -137,3 +137,22 @@ fn requirements_are_met_or_not_or_undecided() {
     assert_eq!(ran.code, 0, "{ran:?}");
     assert!(ran.out.contains("Em >= 100 lx: met"), "{}", ran.out);
 }
+
+/// The daylight factor is what a grid has below an overcast sky, the ground beyond included.
+#[test]
+fn the_daylight_factor_is_that_of_a_grid_below_an_overcast_sky() {
+    let home = home();
+    let factor = |reflectance: &str| {
+        let flags = ["--paths", "16384", "--ground-reflectance", reflectance, "--json"];
+        let ran =
+            home.run(&[&["daylight", "room.toml", "--weather", "year.epw"], &flags[..]].concat());
+        value(&ran.json()["grids"][0], "daylight_factor_mean")
+    };
+    let [black, ..] = factor("0");
+    let [grey, low, high] = factor("0.5");
+    assert!(grey > 1.05 * black, "{grey} {black}");
+    let sky = "overcast, horizontal_lx=1000, ground_reflectance=0.5";
+    let grid = home.run(&["grid", "room.toml", "--sky", sky, "--accuracy", "1%", "--json"]);
+    let [lx, from, to] = value(&grid.json()["grids"][0], "mean_lx").map(|lx| lx / 1000.0);
+    assert!(low < to && from < high, "{lx} ({from} to {to}) and {grey} ({low} to {high})");
+}

@@ -217,7 +217,7 @@ class Scene(Reported):
         """A year of daylight on calculation grids, as ``isolux daylight`` has it; luminaires are off.
 
         ``weather``: a year of weather (.epw). Grids are those of the scene, the one of this ``name``, or as in :meth:`Map.grid`.
-        ``hours``: of use, from and to, by standard time. ``ground_reflectance``: of the ground beyond the scene in these hours. ``paths``:
+        ``hours``: of use, from and to, by standard time. ``ground_reflectance``: of the ground beyond the scene. ``paths``:
         from every point, 256 at least; more make intervals narrower. ``csv`` gets all points.
         """
         at_least(256, paths=paths)

@@ -211,7 +211,10 @@ pub(super) const WORDS: Words = Words {
         ("UGR", "Unified glare rating (CIE 117): 8 lg(0.25/Lb · Σ L²ω/p²)."),
     ],
     definitions_daylight: &[
-        ("Daylight factor", "Illuminance over that of open ground below a CIE overcast sky."),
+        (
+            "Daylight factor",
+            "Illuminance over that of open ground below the CIE overcast sky (type 1), with the light of the ground beyond.",
+        ),
         (
             "DA",
             "Daylight autonomy: the share of the hours of use with at least 300 lx of daylight.",

@@ -237,7 +237,7 @@ pub(super) const WORDS: Words = Words {
     definitions_daylight: &[
         (
             "Tageslichtquotient",
-            "Beleuchtungsstärke durch die des freien Geländes unter einem bedeckten Himmel nach CIE.",
+            "Beleuchtungsstärke durch die des freien Geländes unter einem bedeckten Himmel nach CIE (Typ 1), mit dem Licht des Bodens vor dem Haus.",
         ),
         ("DA", "Tageslichtautonomie: Anteil der Nutzungszeit mit mindestens 300 lx Tageslicht."),
         (
