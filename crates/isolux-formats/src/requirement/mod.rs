@@ -58,6 +58,8 @@ mod tests {
         let found = requirement("EN 12464-1 34.2").unwrap();
         assert_eq!(found.conditions, [mean, even]);
         assert!(found.task.unwrap().contains("34.2"));
+        let [mean, even] = requirement("EN 12464-1 44.1").unwrap().conditions[..] else { panic!() };
+        assert_eq!((mean.bound, even.bound), (500.0, 0.6));
         // Regression: a uniformity of 6 was accepted, and is never met.
         for text in
             ["", "Em", "Em > 500", "E >= 500", "Em >= x", "Em >= -1", "EN 12464-1 99.9", "U0 >= 6"]

@@ -16,8 +16,14 @@ const fn task_of(row: &'static str, name: &'static str, mean_lx: f64, uniformity
     Task { row, name, mean_lx, uniformity }
 }
 
-/// Table 34, offices.
-const TASKS: [Task; 7] = [
+/// Tables 9 (traffic zones), 10 (general areas), 34 (offices) and 44 (education), as far as public sources quote rows by the numbers of this
+/// edition.
+const TASKS: [Task; 13] = [
+    task_of("9.1", "corridors and circulation areas", 100.0, 0.4),
+    task_of("9.4", "areas in front of lifts", 200.0, 0.4),
+    task_of("10.4", "cloakrooms, washrooms, toilets", 200.0, 0.4),
+    task_of("10.6", "sick bays", 500.0, 0.6),
+    task_of("10.7", "rooms for medical attention", 500.0, 0.6),
     task_of("34.1", "filing, copying, etc.", 300.0, 0.4),
     task_of("34.2", "writing, typing, reading, data processing", 500.0, 0.6),
     task_of("34.3", "technical drawing", 750.0, 0.7),
@@ -25,6 +31,7 @@ const TASKS: [Task; 7] = [
     task_of("34.5", "conference and meeting rooms", 500.0, 0.6),
     task_of("34.6", "reception desk", 300.0, 0.6),
     task_of("34.7", "archiving", 200.0, 0.4),
+    task_of("44.1", "classrooms", 500.0, 0.6),
 ];
 
 /// The task of a row.
