@@ -4,6 +4,8 @@
 mod entry;
 #[path = "../../crates/isolux-formats/tests/map_glb/example.rs"]
 mod example;
+#[path = "../../crates/isolux-formats/tests/hostile/kept.rs"]
+mod kept;
 mod requests;
 #[path = "../../crates/isolux-formats/tests/hostile/seal.rs"]
 mod seal;

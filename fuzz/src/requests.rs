@@ -10,6 +10,8 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_millis(200);
 /// A client that waits longer than this after the end of its request has found a hang.
 const MOST_TIME: Duration = Duration::from_secs(5);
+/// A server that fails a whole request so often in a row is gone.
+const MOST_TRIES: u32 = 10;
 
 /// The port stands in requests, as the server is known by it.
 const PORT: u16 = 47_311;
@@ -73,7 +75,9 @@ pub fn ask(bytes: &[u8]) {
     exchange(bytes);
     let hello =
         format!("GET /api/hello HTTP/1.1\r\nHost: 127.0.0.1:{PORT}\r\nConnection: close\r\n\r\n");
-    assert!(exchange(hello.as_bytes()).starts_with(b"HTTP/1.1 200"), "the server is gone");
+    let answers = || exchange(hello.as_bytes()).starts_with(b"HTTP/1.1 200");
+    // On a machine that is busy otherwise the patience of the server may be over before it has had its turn.
+    assert!((0..MOST_TRIES).any(|_| answers()), "the server is gone");
 }
 
 /// What comes back at first; a request that is not whole is ended when nothing has come for a while.

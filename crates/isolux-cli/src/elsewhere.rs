@@ -47,7 +47,7 @@ impl Increments {
             self.known = Some((of_run.clone(), pilot.stage));
         }
         let Ok(bytes) = answered.recv() else { return Ok(None) };
-        let read = checkpoint::from_bytes(&bytes).and_then(|read| checkpoint::part(&read));
+        let read = checkpoint::from_bytes(bytes).and_then(|read| checkpoint::part(&read));
         read.map(|read| Some(read.part))
             .map_err(|what| wrong(format!("increment {increment}, made elsewhere: {what}")))
     }

@@ -7,8 +7,10 @@ use isolux::scene::Scene;
 use serde::Serialize;
 use std::time::Duration;
 
-/// Elements, sums and gathered rays of a receiver: 2900 in the demo interior.
-const BYTES_A_RECEIVER: u64 = 2900;
+/// Elements, sums and gathered rays of a receiver, with as few rays as scenes of many triangles have: 1900 in a hall of 100,000.
+const BYTES_WITH_FEW_RAYS: u64 = 2000;
+/// The same with as many rays as small errors ask for: 2900 in the demo interior.
+const BYTES_WITH_MANY_RAYS: u64 = 2900;
 /// The part of them that a receiver has when the pilot is asked. What the pilot took beside is of luminaires, and stays.
 const BYTES_IN_PILOT: u64 = 1900;
 /// From this share of the most on, the least is not told apart: memory is told to a fifth.
@@ -52,14 +54,14 @@ impl Estimate {
         let of_pilot = isolux_memory::peak_bytes() - taken;
         let beside = taken + of_pilot.saturating_sub(seen.receivers_so_far * BYTES_IN_PILOT);
         let memory_bytes =
-            |receivers: u64| (beside + receivers * BYTES_A_RECEIVER).min(request.max_memory_bytes);
+            |receivers: u64, each: u64| (beside + receivers * each).min(request.max_memory_bytes);
         let limit_s = request.time_limit.map_or(f64::INFINITY, |limit| limit.as_secs_f64());
         let limited = |time_s: f64| time_s.min(limit_s);
         Ok(Self {
             receivers: seen.receivers,
             receivers_least,
-            memory_bytes: memory_bytes(seen.receivers),
-            memory_least_bytes: memory_bytes(receivers_least),
+            memory_bytes: memory_bytes(seen.receivers, BYTES_WITH_MANY_RAYS),
+            memory_least_bytes: memory_bytes(receivers_least, BYTES_WITH_FEW_RAYS),
             time_s: seen.finish.map(|p| limited(p.finish_s)),
             time_earliest_s: seen.finish.map(|p| limited(p.earliest_s)),
             time_latest_s: seen.finish.map(|p| limited(p.latest_s)),

@@ -294,10 +294,11 @@ pub(crate) fn unsolvable(error: SolveError, (scene, path): (&Scene, &Path)) -> F
     let source = path.display();
     match error {
         SolveError::Memory { needed, allowed } => Failure::Refused(format!(
-            "{source}: the map needs about {}, more than the {} that --max-memory leaves for it; raise it, or ask \
-             for less with --mesh-accuracy",
+            "{source}: for its triangles alone the map needs about {}, more than the {} that it may take; give --max-memory {}GiB, of \
+             which a map takes half, or a simpler scene",
             show_bytes(needed),
-            show_bytes(allowed)
+            show_bytes(allowed),
+            (2 * needed).div_ceil(1 << 30)
         )),
         SolveError::NoLight => source::no_light(path, scene),
         SolveError::NoReceiver => {

@@ -47,14 +47,22 @@ fn check_replaceable(path: &Path, known: &fs::Metadata) -> Result<(), Problem> {
 /// Writes a file so that at any moment, power failures included, its name stands for the old
 /// contents or for the new, whole.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Problem> {
-    check_writable(path)?;
-    replace(path, bytes).map_err(|error| unwritable(path, &error))
+    write_with(path, &|to| to.write_all(bytes))
 }
 
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Writes a file as [`write()`] does, by a function that need not hold all of it at once.
+pub fn write_with(path: &Path, contents: &WriteTo<'_>) -> Result<(), Problem> {
+    check_writable(path)?;
+    replace(path, contents).map_err(|error| unwritable(path, &error))
+}
+
+/// A function that writes the contents of a file.
+pub type WriteTo<'a> = dyn Fn(&mut dyn Write) -> io::Result<()> + 'a;
+
+fn replace(path: &Path, contents: &WriteTo<'_>) -> io::Result<()> {
     let target = followed(path);
     let mut file = temporary_beside(&target)?;
-    file.write_all(bytes)?;
+    contents(&mut file)?;
     file.as_file().sync_all()?;
     file.persist(&target).map_err(|error| error.error)?;
     sync_directory(&directory_of(&target))

@@ -1,18 +1,24 @@
 //! Checkpoints as files.
 
 use super::Checkpoint;
+use super::draft::{Draft, DraftArray};
 use crate::{Problem, atomic};
+use blake3::Hasher;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::HashSet;
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{self, BufWriter, IntoInnerError, Read, Write};
+use std::mem;
+use std::ops::Range;
 use std::path::Path;
 
 const MAGIC: &[u8; 8] = b"ISOLUXCK";
 const VERSION: u32 = 2;
 const PREFIX_BYTES: usize = 16;
 const HASH_BYTES: usize = blake3::OUT_LEN;
+/// What is hashed and written at once.
+const BUFFER_BYTES: usize = 1 << 16;
 const NO_CHECKPOINT: &str = "it is not a checkpoint, a pilot or a part of a run of isolux";
 const START_ANEW: &str = "remove it, and compute anew what it was of";
 
@@ -29,36 +35,56 @@ struct Entry {
 }
 
 /// Writes a checkpoint in place of an older one: at any moment one of the two is there, whole.
-pub fn write(path: &Path, checkpoint: &Checkpoint) -> Result<(), Problem> {
-    let bytes = to_bytes(checkpoint)
-        .map_err(|what| Problem::new(path, "header", what, "keep less in it"))?;
-    atomic::write(path, &bytes)
+pub fn write(path: &Path, draft: &Draft<'_>) -> Result<(), Problem> {
+    let head = head(draft).map_err(|what| Problem::new(path, "header", what, "keep less in it"))?;
+    atomic::write_with(path, &|to| write_to(draft, &head, to))
 }
 
 /// The bytes of a checkpoint as a file. The error is a header of more than 4 GiB.
-pub fn to_bytes(checkpoint: &Checkpoint) -> Result<Vec<u8>, String> {
-    let entry =
-        |(name, bytes): &(String, Vec<u8>)| Entry { name: name.clone(), bytes: bytes.len() };
-    let contents = Contents {
-        header: &checkpoint.header,
-        arrays: checkpoint.arrays.iter().map(entry).collect(),
-    };
+pub fn to_bytes(draft: &Draft<'_>) -> Result<Vec<u8>, String> {
+    let head = head(draft)?;
+    let arrays: usize = draft.arrays.iter().map(|array| array.bytes).sum();
+    let mut bytes = Vec::with_capacity(head.len() + arrays + HASH_BYTES);
+    write_to(draft, &head, &mut bytes).map_err(|error| error.to_string())?;
+    Ok(bytes)
+}
+
+/// What stands in front of the arrays.
+fn head(draft: &Draft<'_>) -> Result<Vec<u8>, String> {
+    let entry = |array: &DraftArray<'_>| Entry { name: array.name.clone(), bytes: array.bytes };
+    let contents =
+        Contents { header: &draft.header, arrays: draft.arrays.iter().map(entry).collect() };
     let json = serde_json::to_vec(&contents).expect("JSON of JSON with names for keys");
     let Ok(json_length) = u32::try_from(json.len()) else {
         return Err(format!("the header takes {} bytes, more than 4 GiB", json.len()));
     };
-    let arrays: usize = checkpoint.arrays.iter().map(|(_, bytes)| bytes.len()).sum();
-    let mut bytes = Vec::with_capacity(PREFIX_BYTES + json.len() + arrays + HASH_BYTES);
-    bytes.extend(MAGIC);
-    bytes.extend(VERSION.to_le_bytes());
-    bytes.extend(json_length.to_le_bytes());
-    bytes.extend(json);
-    for (_, array) in &checkpoint.arrays {
-        bytes.extend_from_slice(array);
+    Ok([&MAGIC[..], &VERSION.to_le_bytes(), &json_length.to_le_bytes(), &json].concat())
+}
+
+fn write_to(draft: &Draft<'_>, head: &[u8], to: &mut dyn Write) -> io::Result<()> {
+    let mut file = BufWriter::with_capacity(BUFFER_BYTES, Hashed { hasher: Hasher::new(), to });
+    file.write_all(head)?;
+    draft.arrays.iter().try_for_each(|array| (array.write)(&mut file))?;
+    let Hashed { hasher, to } = file.into_inner().map_err(IntoInnerError::into_error)?;
+    to.write_all(hasher.finalize().as_bytes())
+}
+
+/// A file that knows the hash of what was written to it.
+struct Hashed<'a> {
+    hasher: Hasher,
+    to: &'a mut dyn Write,
+}
+
+impl Write for Hashed<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.to.write(bytes)?;
+        self.hasher.update(&bytes[..written]);
+        Ok(written)
     }
-    let hash = blake3::hash(&bytes);
-    bytes.extend(hash.as_bytes());
-    Ok(bytes)
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
 }
 
 /// Whether a file is a checkpoint, by how it begins.
@@ -76,7 +102,7 @@ pub fn read(path: &Path, max_bytes: u64) -> Result<Checkpoint, Problem> {
     if !bytes.starts_with(MAGIC) {
         return Err(Problem::new(path, "", NO_CHECKPOINT, "give another file"));
     }
-    from_bytes(&bytes).map_err(|what| Problem::new(path, "", what, START_ANEW))
+    from_bytes(bytes).map_err(|what| Problem::new(path, "", what, START_ANEW))
 }
 
 fn whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, Problem> {
@@ -96,8 +122,9 @@ fn whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, Problem> {
 }
 
 /// The checkpoint in bytes of any origin. The error says what is wrong with them.
-pub fn from_bytes(bytes: &[u8]) -> Result<Checkpoint, String> {
+pub fn from_bytes(bytes: impl Into<Vec<u8>>) -> Result<Checkpoint, String> {
     const CUT: &str = "the checkpoint is cut short";
+    let bytes = bytes.into();
     if !bytes.starts_with(MAGIC) {
         return Err(NO_CHECKPOINT.into());
     }
@@ -113,27 +140,27 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Checkpoint, String> {
     if blake3::hash(content).as_bytes() != hash {
         return Err("its contents do not match their checksum: it is damaged or cut short".into());
     }
-    let (json, arrays) = rest.split_at_checked(word(12) as usize).ok_or(CUT)?;
-    let contents: Contents<Value> =
+    let (json, _) = rest.split_at_checked(word(12) as usize).ok_or(CUT)?;
+    let Contents { header, arrays }: Contents<Value> =
         serde_json::from_slice(json).map_err(|error| format!("its header is broken: {error}"))?;
-    Ok(Checkpoint { header: contents.header, arrays: cut(arrays, contents.arrays)? })
+    let arrays = places(PREFIX_BYTES + json.len()..length, arrays)?;
+    Ok(Checkpoint { header, bytes, arrays })
 }
 
-/// Cuts the arrays out, which must fill their part of the file to the last byte.
-fn cut(mut rest: &[u8], entries: Vec<Entry>) -> Result<Vec<(String, Vec<u8>)>, String> {
-    let mut arrays = Vec::new();
+/// The places of the arrays, which must fill their part of the file to the last byte.
+fn places(part: Range<usize>, entries: Vec<Entry>) -> Result<Vec<(String, Range<usize>)>, String> {
+    let mut start = part.start;
     let mut names = HashSet::new();
-    for Entry { name, bytes } in entries {
-        let (array, after) = rest
-            .split_at_checked(bytes)
-            .ok_or_else(|| format!("array `{name}` reaches beyond the end"))?;
+    let mut place = |Entry { name, bytes }: Entry| {
+        let end = start.checked_add(bytes).filter(|&end| end <= part.end);
+        let end = end.ok_or_else(|| format!("array `{name}` reaches beyond the end"))?;
         if !names.insert(name.clone()) {
             return Err(format!("array `{name}` is there twice"));
         }
-        arrays.push((name, array.to_vec()));
-        rest = after;
-    }
-    if rest.is_empty() { Ok(arrays) } else { Err("bytes are left over behind the arrays".into()) }
+        Ok((name, mem::replace(&mut start, end)..end))
+    };
+    let places = entries.into_iter().map(&mut place).collect::<Result<_, String>>()?;
+    if start == part.end { Ok(places) } else { Err("bytes are left over behind the arrays".into()) }
 }
 
 #[cfg(test)]
@@ -144,20 +171,22 @@ mod tests {
 
     const ENOUGH: u64 = 1 << 20;
 
-    fn example() -> Checkpoint {
-        let mut checkpoint = Checkpoint::new(json!({"scene_hash": "ab", "seed": u64::MAX}));
-        checkpoint.push("counters", &[1_u64, 2, u64::MAX]);
-        checkpoint.push("sums", &[i128::MIN, -1, 0, i128::MAX]);
-        checkpoint.push("nothing", &[0_i64; 0]);
-        checkpoint
+    fn example() -> Draft<'static> {
+        let mut draft = Draft::new(json!({"scene_hash": "ab", "seed": u64::MAX}));
+        draft.push("counters", [[1_u64], [2], [u64::MAX]].into_iter());
+        draft.push("sums", [[i128::MIN, -1], [0, i128::MAX]].into_iter());
+        draft.push("nothing", [[0_i64; 3]; 0].into_iter());
+        draft
     }
 
-    fn packed(checkpoint: &Checkpoint) -> Vec<u8> {
+    fn packed(draft: &Draft<'_>) -> Vec<u8> {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("run.ckpt");
-        write(&path, checkpoint).unwrap();
-        assert_eq!(read(&path, ENOUGH).unwrap(), *checkpoint);
-        fs::read(&path).unwrap()
+        write(&path, draft).unwrap();
+        let bytes = fs::read(&path).unwrap();
+        assert_eq!(bytes, to_bytes(draft).unwrap());
+        assert_eq!(read(&path, ENOUGH).unwrap().header, draft.header);
+        bytes
     }
 
     /// With the checksum it should have.
@@ -169,15 +198,17 @@ mod tests {
 
     #[test]
     fn integers_come_back() {
-        packed(&Checkpoint::default());
-        packed(&example());
-        let found = example();
-        assert_eq!(found.integers("counters"), Ok(vec![1_u64, 2, u64::MAX]));
-        assert_eq!(found.integers("sums"), Ok(vec![i128::MIN, -1, 0, i128::MAX]));
-        assert_eq!(found.integers::<i64>("nothing"), Ok(vec![]));
-        assert_eq!(found.integers::<u64>("none"), Err(ArrayError::Missing("none".into())));
+        packed(&Draft::new(json!(null)));
+        let found = from_bytes(packed(&example())).unwrap();
+        let counters: Vec<[u64; 3]> = found.rows("counters").unwrap().collect();
+        assert_eq!(counters, [[1, 2, u64::MAX]]);
+        let sums: Vec<[i128; 1]> = found.rows("sums").unwrap().collect();
+        assert_eq!(sums, [[i128::MIN], [-1], [0], [i128::MAX]]);
+        assert_eq!(found.rows::<i64, 2>("nothing").unwrap().count(), 0);
+        let error = |name: &str| found.rows::<i128, 1>(name).map(drop).unwrap_err();
+        assert_eq!(error("none"), ArrayError::Missing("none".into()));
         let size = ArrayError::Size { name: "counters".into(), bytes: 24, size: 16 };
-        assert_eq!(found.integers::<i128>("counters"), Err(size));
+        assert_eq!(error("counters"), size);
     }
 
     #[test]
@@ -189,7 +220,7 @@ mod tests {
         for at in 0..whole.len() {
             let mut bytes = whole.clone();
             bytes[at] ^= 0x10;
-            assert!(from_bytes(&bytes).is_err(), "byte {at}");
+            assert!(from_bytes(bytes).is_err(), "byte {at}");
         }
     }
 
@@ -212,13 +243,13 @@ mod tests {
             (r#"{"header":1}"#, 0, "broken"),
             ("", 0, "broken"),
         ] {
-            let found = from_bytes(&with_json(json, &vec![0; arrays])).unwrap_err();
+            let found = from_bytes(with_json(json, &vec![0; arrays])).unwrap_err();
             assert!(found.contains(said), "{json}: {found}");
         }
         let huge = [MAGIC, &VERSION.to_le_bytes()[..], &[0xff; 4]].concat();
-        assert!(from_bytes(&sealed(huge)).unwrap_err().contains("cut short"));
+        assert!(from_bytes(sealed(huge)).unwrap_err().contains("cut short"));
         let newer = [MAGIC, &7_u32.to_le_bytes()[..], &[0; 4]].concat();
-        assert!(from_bytes(&sealed(newer)).unwrap_err().contains("format 7"));
+        assert!(from_bytes(sealed(newer)).unwrap_err().contains("format 7"));
     }
 
     #[test]

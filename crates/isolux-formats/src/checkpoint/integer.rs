@@ -1,11 +1,13 @@
 //! The integers of checkpoints.
 
+use std::io::{self, Write};
+
 /// An integer of fixed size.
 pub trait Integer: Copy + sealed::Sealed {
     /// Its size.
     const BYTES: usize;
     #[doc(hidden)]
-    fn append_to(self, bytes: &mut Vec<u8>);
+    fn write_to(self, to: &mut dyn Write) -> io::Result<()>;
     #[doc(hidden)]
     fn from_chunk(chunk: &[u8]) -> Self;
 }
@@ -21,8 +23,8 @@ macro_rules! integer {
         impl Integer for $kind {
             const BYTES: usize = size_of::<Self>();
 
-            fn append_to(self, bytes: &mut Vec<u8>) {
-                bytes.extend(self.to_le_bytes());
+            fn write_to(self, to: &mut dyn Write) -> io::Result<()> {
+                to.write_all(&self.to_le_bytes())
             }
 
             fn from_chunk(chunk: &[u8]) -> Self {

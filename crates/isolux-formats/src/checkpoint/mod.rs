@@ -7,23 +7,27 @@
 //! text as `u32`, the text (`header`, and `name` and `bytes` of each array), the arrays one after
 //! another, the BLAKE3 hash of all before it. Everything is little-endian.
 
+mod draft;
 mod file;
 mod integer;
 mod run;
 
+pub use draft::Draft;
 pub use file::{from_bytes, is_checkpoint, read, to_bytes, write};
 pub use integer::Integer;
 pub use run::{Contents, Part, contents, of_part, of_pilot, of_state, part, pilot, state};
 
 use serde_json::Value;
+use std::ops::Range;
 
-/// The state of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// A checkpoint that was read. Its arrays stay where they were in the file.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     /// What the arrays belong to.
     pub header: Value,
-    /// Names and contents, little-endian; no name twice.
-    pub arrays: Vec<(String, Vec<u8>)>,
+    bytes: Vec<u8>,
+    /// Names and places of the arrays; no name twice.
+    arrays: Vec<(String, Range<usize>)>,
 }
 
 /// Why an array cannot be had.
@@ -33,48 +37,38 @@ pub enum ArrayError {
     /// There is none of this name.
     #[error("the checkpoint has no array `{0}`")]
     Missing(String),
-    /// It is not made of integers of this size.
+    /// It is not made of rows of this size.
     #[error("array `{name}` of the checkpoint has {bytes} bytes, not a multiple of {size}")]
     Size {
         /// Name of the array.
         name: String,
         /// Its length.
         bytes: usize,
-        /// Bytes of one integer.
+        /// Bytes of one row.
         size: usize,
     },
 }
 
 impl Checkpoint {
-    /// A checkpoint without arrays.
-    pub fn new(header: Value) -> Self {
-        Self { header, arrays: Vec::new() }
-    }
-
-    /// Adds an array, in place of one of the same name.
-    pub fn push<T: Integer>(&mut self, name: impl Into<String>, values: &[T]) {
-        let name = name.into();
-        self.arrays.retain(|(known, _)| *known != name);
-        let mut bytes = Vec::with_capacity(values.len() * T::BYTES);
-        for value in values {
-            value.append_to(&mut bytes);
-        }
-        self.arrays.push((name, bytes));
-    }
-
     /// The bytes of an array.
     pub fn array(&self, name: &str) -> Result<&[u8], ArrayError> {
         let array = self.arrays.iter().find(|(found, _)| found == name);
-        array.map(|(_, bytes)| bytes.as_slice()).ok_or_else(|| ArrayError::Missing(name.to_owned()))
+        let (_, place) = array.ok_or_else(|| ArrayError::Missing(name.to_owned()))?;
+        Ok(&self.bytes[place.clone()])
     }
 
-    /// The integers of an array.
-    pub fn integers<T: Integer>(&self, name: &str) -> Result<Vec<T>, ArrayError> {
-        let bytes = self.array(name)?;
-        if bytes.len() % T::BYTES != 0 {
+    /// The rows of an array: so many integers each.
+    pub fn rows<'c, T: Integer, const N: usize>(
+        &'c self,
+        name: &str,
+    ) -> Result<impl Iterator<Item = [T; N]> + use<'c, T, N>, ArrayError> {
+        let (bytes, size) = (self.array(name)?, N * T::BYTES);
+        if bytes.len() % size != 0 {
             let (name, bytes) = (name.to_owned(), bytes.len());
-            return Err(ArrayError::Size { name, bytes, size: T::BYTES });
+            return Err(ArrayError::Size { name, bytes, size });
         }
-        Ok(bytes.chunks_exact(T::BYTES).map(T::from_chunk).collect())
+        let row =
+            |row: &[u8]| std::array::from_fn(|k| T::from_chunk(&row[k * T::BYTES..][..T::BYTES]));
+        Ok(bytes.chunks_exact(size).map(row))
     }
 }

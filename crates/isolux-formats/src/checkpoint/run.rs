@@ -1,9 +1,10 @@
 //! Runs as checkpoints: their states, pilots and parts.
 
-use super::Checkpoint;
+use super::{ArrayError, Checkpoint, Draft};
 use isolux::engine::{Audited, PilotState, RunIdentity, RunPart, RunState, Segment, Sums};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use std::io;
 
 /// What a checkpoint is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -95,8 +96,8 @@ pub fn contents(checkpoint: &Checkpoint) -> Result<Contents, String> {
 }
 
 /// The state of a run, without its pilot.
-pub fn of_state(state: &RunState) -> Checkpoint {
-    let mut checkpoint = with_header(&OfRun {
+pub fn of_state(state: &RunState) -> Draft<'_> {
+    let mut draft = with_header(&OfRun {
         kind: Kind::Run,
         identity: state.identity.clone(),
         stage: state.stage,
@@ -106,8 +107,8 @@ pub fn of_state(state: &RunState) -> Checkpoint {
     });
     let arrays =
         [("receivers", &state.receivers), ("checks", &state.checks), ("given_up", &state.given_up)];
-    arrays.iter().for_each(|(name, sums)| push_sums(&mut checkpoint, name, sums, Squares::Kept));
-    checkpoint
+    arrays.iter().for_each(|(name, sums)| push_sums(&mut draft, name, sums, Squares::Kept));
+    draft
 }
 
 /// The state of a run, without its pilot. The error says what is wrong.
@@ -128,13 +129,16 @@ pub fn state(checkpoint: &Checkpoint) -> Result<RunState, String> {
 }
 
 /// The result of a pilot. The error says why it cannot be kept.
-pub fn of_pilot(pilot: &PilotState) -> Result<Checkpoint, String> {
-    let PilotState { identity, stage, rays, .. } = pilot;
+pub fn of_pilot(pilot: &PilotState) -> Result<Draft<'_>, String> {
+    let PilotState { identity, stage, rays, result } = pilot;
     let (identity, stage, rays) = (identity.clone(), *stage, *rays);
-    let mut checkpoint = with_header(&OfPilot { kind: Kind::Pilot, identity, stage, rays });
-    let bytes = postcard::to_allocvec(&pilot.result).map_err(|error| error.to_string())?;
-    checkpoint.arrays.push((RESULT.to_owned(), bytes));
-    Ok(checkpoint)
+    let mut draft = with_header(&OfPilot { kind: Kind::Pilot, identity, stage, rays });
+    let bytes = postcard::serialize_with_flavor(result, postcard::ser_flavors::Size::default())
+        .map_err(|error| error.to_string())?;
+    draft.push_written(RESULT, bytes, |to| {
+        postcard::to_io(result, to).map(drop).map_err(io::Error::other)
+    });
+    Ok(draft)
 }
 
 /// The result of a pilot. The error says what is wrong.
@@ -149,9 +153,9 @@ pub fn pilot(checkpoint: &Checkpoint) -> Result<PilotState, String> {
 const RESULT: &str = "result";
 
 /// A part of a run.
-pub fn of_part(Part { scene, part }: &Part) -> Checkpoint {
+pub fn of_part(Part { scene, part }: &Part) -> Draft<'_> {
     let segment = |of: &Segment| OfSegment { first: of.first, count: of.count, rays: of.rays };
-    let mut checkpoint = with_header(&OfPart {
+    let mut draft = with_header(&OfPart {
         kind: Kind::Part,
         scene: scene.clone(),
         identity: part.identity.clone(),
@@ -160,11 +164,11 @@ pub fn of_part(Part { scene, part }: &Part) -> Checkpoint {
     });
     for (k, segment) in part.segments.iter().enumerate() {
         let squares = Squares::of(segment.count);
-        push_sums(&mut checkpoint, &format!("receivers_{k}"), &segment.receivers, squares);
-        push_sums(&mut checkpoint, &format!("checks_{k}"), &segment.checks, squares);
-        push_sums(&mut checkpoint, &format!("given_up_{k}"), &segment.given_up, squares);
+        push_sums(&mut draft, &format!("receivers_{k}"), &segment.receivers, squares);
+        push_sums(&mut draft, &format!("checks_{k}"), &segment.checks, squares);
+        push_sums(&mut draft, &format!("given_up_{k}"), &segment.given_up, squares);
     }
-    checkpoint
+    draft
 }
 
 /// A part of a run. The error says what is wrong.
@@ -198,8 +202,8 @@ impl Squares {
     }
 }
 
-fn with_header(header: &impl Serialize) -> Checkpoint {
-    Checkpoint::new(serde_json::to_value(header).expect("plain values always have a JSON value"))
+fn with_header<'a>(header: &impl Serialize) -> Draft<'a> {
+    Draft::new(serde_json::to_value(header).expect("plain values always have a JSON value"))
 }
 
 fn kind(checkpoint: &Checkpoint) -> Result<Kind, String> {
@@ -216,31 +220,30 @@ fn header<T: DeserializeOwned>(checkpoint: &Checkpoint, wanted: Kind) -> Result<
         .map_err(|error| format!("its header is not that of {} ({error})", wanted.name()))
 }
 
-fn push_sums(checkpoint: &mut Checkpoint, name: &str, sums: &[Sums], squares: Squares) {
-    let values: Vec<i64> = sums.iter().flat_map(|s| s.values).collect();
-    let totals: Vec<i64> = sums.iter().flat_map(|s| s.totals).collect();
-    checkpoint.push(format!("{name}_values"), &values);
-    checkpoint.push(format!("{name}_totals"), &totals);
+fn push_sums<'a>(draft: &mut Draft<'a>, name: &str, sums: &'a [Sums], squares: Squares) {
+    draft.push(format!("{name}_values"), sums.iter().map(|of| of.values));
+    draft.push(format!("{name}_totals"), sums.iter().map(|of| of.totals));
     if squares == Squares::Kept {
-        let squares: Vec<i128> = sums.iter().flat_map(|s| s.squares).collect();
-        checkpoint.push(format!("{name}_squares"), &squares);
+        draft.push(format!("{name}_squares"), sums.iter().map(|of| of.squares));
     }
 }
 
 fn sums(checkpoint: &Checkpoint, name: &str, kept: Squares) -> Result<Vec<Sums>, String> {
-    let array = |part: &str| {
-        checkpoint.integers::<i64>(&format!("{name}_{part}")).map_err(|error| error.to_string())
-    };
-    let (values, totals) = (array("values")?, array("totals")?);
-    let squares = match kept {
-        Squares::Kept => checkpoint
-            .integers::<i128>(&format!("{name}_squares"))
-            .map_err(|error| error.to_string())?,
-        Squares::Implied => totals.iter().map(|&of| i128::from(of) * i128::from(of)).collect(),
-    };
-    let (values, _) = values.as_chunks::<9>();
-    let (totals, _) = totals.as_chunks::<3>();
-    let (squares, _) = squares.as_chunks::<3>();
-    let rows = values.iter().zip(totals).zip(squares);
-    Ok(rows.map(|((&values, &totals), &squares)| Sums { values, totals, squares }).collect())
+    let part = |part: &str| format!("{name}_{part}");
+    let told = |error: ArrayError| error.to_string();
+    let values = checkpoint.rows(&part("values")).map_err(told)?;
+    let totals = checkpoint.rows(&part("totals")).map_err(told)?;
+    let of = values.zip(totals);
+    Ok(match kept {
+        Squares::Kept => {
+            let squares = checkpoint.rows(&part("squares")).map_err(told)?;
+            of.zip(squares)
+                .map(|((values, totals), squares)| Sums { values, totals, squares })
+                .collect()
+        }
+        Squares::Implied => {
+            let squares = |totals: [i64; 3]| totals.map(|of| i128::from(of) * i128::from(of));
+            of.map(|(values, totals)| Sums { values, totals, squares: squares(totals) }).collect()
+        }
+    })
 }

@@ -1,6 +1,7 @@
 //! One entry for every reader of files of others: bytes in, and whether they are read. Whoever calls them looks for panics, long runs
 //! and memory.
 
+use crate::kept::KEPT;
 use crate::seal;
 use isolux::scene::{Scene, SceneParts};
 use isolux_formats::lint::audit;
@@ -82,7 +83,8 @@ pub(crate) const ENTRIES: [Entry; 18] = [
     Entry {
         seal: seal::checkpoint,
         ..entry("checkpoint", |home, bytes| {
-            checkpoint::read(&home.write("map.checkpoint", bytes), MOST_BYTES).is_ok()
+            let read = checkpoint::read(&home.write("map.checkpoint", bytes), MOST_BYTES);
+            read.is_ok_and(|read| KEPT.goes_on(&read))
         })
     },
     Entry {

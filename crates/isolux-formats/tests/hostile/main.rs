@@ -6,6 +6,7 @@ mod bend;
 mod entry;
 #[path = "../map_glb/example.rs"]
 mod example;
+mod kept;
 mod seal;
 mod seeds;
 #[path = "../spoil/mod.rs"]

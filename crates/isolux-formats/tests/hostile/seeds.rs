@@ -1,11 +1,11 @@
 //! Good files to begin with: small ones of this folder, of the repository, and some that are written here.
 
 use crate::example;
+use crate::kept::KEPT;
 use isolux::engine::{CACHE_REPLICATES, CacheSample, SampleKind};
 use isolux::geometry::{Direction, Point};
 use isolux::units::Rgb;
 use isolux_formats::cache_file::CacheFile;
-use isolux_formats::checkpoint::{self, Checkpoint};
 use isolux_formats::luminance::{Luminances, encode_exr, encode_radiance};
 use isolux_formats::map_glb::{self, Preview};
 use std::path::{Path, PathBuf};
@@ -67,23 +67,25 @@ pub(crate) fn long(entry: &str) -> Option<Vec<u8>> {
     }
 }
 
-fn written(entry: &str) -> Option<Vec<u8>> {
+fn written(entry: &str) -> Vec<Vec<u8>> {
+    match entry {
+        "map" => vec![map()],
+        "epw" => vec![weather()],
+        "hdr" => vec![encode_radiance(&surroundings()).unwrap()],
+        "exr" => vec![encode_exr(&surroundings()).unwrap()],
+        "checkpoint" => KEPT.files.to_vec(),
+        "cache" => vec![cache()],
+        _ => Vec::new(),
+    }
+}
+
+fn cache() -> Vec<u8> {
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("seed");
-    match entry {
-        "map" => return Some(map()),
-        "epw" => return Some(weather()),
-        "hdr" => return encode_radiance(&surroundings()).ok(),
-        "exr" => return encode_exr(&surroundings()).ok(),
-        "checkpoint" => checkpoint::write(&path, &run()).unwrap(),
-        "cache" => {
-            let (mut file, _) = CacheFile::open(&path, ("room", "abcd"), 1 << 20).unwrap();
-            file.append(&[sample(0), sample(1)]).unwrap();
-            file.append(&[sample(2)]).unwrap();
-        }
-        _ => return None,
-    }
-    Some(std::fs::read(path).unwrap())
+    let (mut file, _) = CacheFile::open(&path, ("room", "abcd"), 1 << 20).unwrap();
+    file.append(&[sample(0), sample(1)]).unwrap();
+    file.append(&[sample(2)]).unwrap();
+    std::fs::read(path).unwrap()
 }
 
 const PIXELS: [[f32; 3]; 128] = [[0.5, 2.0, 1e4]; 128];
@@ -110,13 +112,6 @@ fn map() -> Vec<u8> {
     let scene = example::scene();
     let map = example::map(&scene);
     map_glb::write(&scene, &map, &Preview::automatic(&scene, &map)).unwrap()
-}
-
-fn run() -> Checkpoint {
-    let mut checkpoint = Checkpoint::new(serde_json::json!({"scene_hash": "ab", "seed": 7}));
-    checkpoint.push("counters", &[1_u64, 2, u64::MAX]);
-    checkpoint.push("sums", &[i128::MIN, -1, 0]);
-    checkpoint
 }
 
 fn sample(triangle: u32) -> CacheSample {

@@ -3,7 +3,7 @@
 use super::walk::MOST_NODES;
 use super::{Elements, Node, Split, Vertex};
 use isolux_geometry::{Point, Vector};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// The index that stands for none.
 const NONE: u32 = u32::MAX;
@@ -48,22 +48,32 @@ pub enum ElementArraysError {
     Vertex(usize),
 }
 
+impl ElementArrays {
+    /// The arrays of vertices, nodes and roots.
+    pub(super) fn of(vertices: &[Vertex], nodes: &[Node], roots: &[[Option<u32>; 2]]) -> Self {
+        let split = |split: Split| [u32::from(split.edge), split.first_child];
+        Self {
+            positions: vertices.iter().map(|v| v.position.into()).collect(),
+            normals: vertices.iter().map(|v| v.normal.to_vector().into()).collect(),
+            parents: vertices.iter().map(|v| v.parents.unwrap_or([NONE; 2])).collect(),
+            areas_m2: vertices.iter().map(|v| v.area_m2).collect(),
+            nodes: nodes.iter().map(|n| n.vertices).collect(),
+            splits: nodes.iter().map(|n| n.split.map_or([NONE; 2], split)).collect(),
+            roots: roots.iter().map(|r| r.map(|root| root.unwrap_or(NONE))).collect(),
+        }
+    }
+}
+
+impl Serialize for Elements {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.to_arrays().serialize(serializer)
+    }
+}
+
 impl Elements {
     /// As plain arrays.
     pub fn to_arrays(&self) -> ElementArrays {
-        ElementArrays {
-            positions: self.vertices.iter().map(|v| v.position.into()).collect(),
-            normals: self.vertices.iter().map(|v| v.normal.to_vector().into()).collect(),
-            parents: self.vertices.iter().map(|v| v.parents.unwrap_or([NONE; 2])).collect(),
-            areas_m2: self.vertices.iter().map(|v| v.area_m2).collect(),
-            nodes: self.nodes.iter().map(|n| n.vertices).collect(),
-            splits: self
-                .nodes
-                .iter()
-                .map(|n| n.split.map_or([NONE; 2], |s| [u32::from(s.edge), s.first_child]))
-                .collect(),
-            roots: self.roots.iter().map(|r| r.map(|root| root.unwrap_or(NONE))).collect(),
-        }
+        ElementArrays::of(&self.vertices, &self.nodes, &self.roots)
     }
 
     /// From plain arrays, of any origin: every index is checked, and so is that the nodes are trees,
@@ -88,12 +98,6 @@ impl Elements {
             return Err(ElementArraysError::Index("a tree of bisections"));
         }
         Ok(elements)
-    }
-}
-
-impl From<Elements> for ElementArrays {
-    fn from(elements: Elements) -> Self {
-        elements.to_arrays()
     }
 }
 

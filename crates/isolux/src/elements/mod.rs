@@ -20,7 +20,7 @@ pub(crate) use subdivide::{first_corner_count, first_vertex_count};
 pub(crate) use walk::Place;
 
 use isolux_geometry::{Normal, Point};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use walk::Walk;
 
 /// Elements or vertices of one task, where little is done for each.
@@ -38,8 +38,8 @@ pub struct PlaceOnSide {
 }
 
 /// The subdivided surfaces.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "ElementArrays", into = "ElementArrays")]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "ElementArrays")]
 pub struct Elements {
     vertices: Vec<Vertex>,
     nodes: Vec<Node>,

@@ -6,11 +6,11 @@
 //! triangle of the scene locates any point of it.
 
 use super::hash::FewNumbers;
-use super::{Elements, Node, Split, TOGETHER, Vertex};
+use super::{ElementArrays, Elements, Node, Split, TOGETHER, Vertex};
 use crate::scene::{Finish, Scene};
 use isolux_geometry::{Normal, Point, Triangle};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use smallvec::SmallVec;
 use std::collections::HashMap;
 
@@ -22,8 +22,8 @@ const CREASE_COS: f64 = 0.999_847_7;
 type Few = SmallVec<[u32; 2]>;
 
 /// Elements that can still be bisected.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(from = "Elements", into = "Elements")]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(from = "Elements")]
 pub struct Subdivision {
     vertices: Vec<Vertex>,
     nodes: Vec<Node>,
@@ -37,9 +37,9 @@ pub struct Subdivision {
     on_border: Vec<bool>,
 }
 
-impl From<Subdivision> for Elements {
-    fn from(subdivision: Subdivision) -> Self {
-        subdivision.elements()
+impl Serialize for Subdivision {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        ElementArrays::of(&self.vertices, &self.nodes, &self.roots).serialize(serializer)
     }
 }
 

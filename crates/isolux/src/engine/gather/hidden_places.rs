@@ -63,11 +63,31 @@ pub(crate) enum CutOff {
 }
 
 /// The result of looking for light from a place.
-enum Seen {
+enum Seen<P> {
     /// The place sees light or out of the scene.
     Light,
     /// The place sees these reflecting places only; whether they are lit is open.
-    Places(Vec<SurfacePoint>),
+    Places(P),
+}
+
+/// A place that a ray has met. All else of the place follows from it; inside solids many vertices wait with many of these.
+struct Met {
+    triangle: u32,
+    back: bool,
+    uv: [f32; 2],
+}
+
+impl Met {
+    /// The place of a ray's end, whose weights are those of a hit.
+    const fn at(place: &SurfacePoint) -> Self {
+        let SurfacePoint { triangle, back, u, v, .. } = *place;
+        Self { triangle, back, uv: [u as f32, v as f32] }
+    }
+
+    fn place(&self, scene: &Scene) -> SurfacePoint {
+        let [u, v] = self.uv.map(f64::from);
+        SurfacePoint::new(scene, self.triangle, self.back, u, v)
+    }
 }
 
 impl Sight<'_> {
@@ -81,9 +101,10 @@ impl Sight<'_> {
             true => Seen::Light,
             false => self.look(gatherer, (first + k) as u64, &lit),
         };
-        let seen: Vec<Seen> = self.gatherers[first..].par_iter().enumerate().map(look).collect();
+        let seen: Vec<Seen<Box<[Met]>>> =
+            self.gatherers[first..].par_iter().enumerate().map(look).collect();
         known.extend(seen.iter().map(|s| matches!(s, Seen::Light)));
-        let mut waiting: Vec<(usize, Vec<SurfacePoint>)> = Vec::new();
+        let mut waiting: Vec<(usize, Box<[Met]>)> = Vec::new();
         for (k, seen) in seen.into_iter().enumerate() {
             if let Seen::Places(places) = seen {
                 waiting.push((first + k, places));
@@ -91,8 +112,10 @@ impl Sight<'_> {
         }
         // Each round adds one reflection; it opens some vertex or is the last.
         loop {
-            let open: Vec<bool> =
-                waiting.par_iter().map(|(_, places)| self.any_open(places, known)).collect();
+            let is_open = |(_, places): &(usize, Box<[Met]>)| {
+                places.iter().any(|met| self.sees_open(&met.place(self.scene), known))
+            };
+            let open: Vec<bool> = waiting.par_iter().map(is_open).collect();
             if !open.contains(&true) {
                 break;
             }
@@ -138,15 +161,22 @@ impl Sight<'_> {
     }
 
     /// Looks for an open vertex, which asks no luminaires, and then for light on the places seen.
-    fn look(&self, from: &Gatherer, number: u64, known: &[bool]) -> Seen {
+    fn look(&self, from: &Gatherer, number: u64, known: &[bool]) -> Seen<Box<[Met]>> {
         match self.look_for_open(from, number, known) {
-            Seen::Places(places) if self.any_lit(from, number, &places) => Seen::Light,
-            seen => seen,
+            Seen::Places(places) if !self.any_lit(from, number, &places) => {
+                Seen::Places(places.iter().map(Met::at).collect())
+            }
+            _ => Seen::Light,
         }
     }
 
     /// Looks for places that see a vertex known to be open.
-    fn look_for_open(&self, from: &Gatherer, number: u64, known: &[bool]) -> Seen {
+    fn look_for_open(
+        &self,
+        from: &Gatherer,
+        number: u64,
+        known: &[bool],
+    ) -> Seen<Vec<SurfacePoint>> {
         let sequence = Sequence::new(self.key.with(number));
         let axis = from.normal.to_direction();
         let mut places = Vec::new();

@@ -162,25 +162,26 @@ impl Gathering<'_> {
         gatherers: &[Gatherer],
         key_of: impl Fn(usize) -> Key + Sync,
     ) -> Operator {
-        let whole = self.operator_until(Deadline::NEVER, gatherers, key_of);
+        let of = (gatherers.len(), |k: usize| gatherers[k]);
+        let whole = self.operator_until(Deadline::NEVER, of, key_of);
         whole.expect("without a deadline nothing is given up")
     }
 
-    /// The operator as from [`Gathering::operator`]; `None` if the deadline passes meanwhile.
+    /// The operator as from [`Gathering::operator`], of a number of receivers that a function gives; `None` if the
+    /// deadline passes meanwhile.
     pub(crate) fn operator_until(
         &self,
         deadline: Deadline,
-        gatherers: &[Gatherer],
+        (count, gatherer): (usize, impl Fn(usize) -> Gatherer + Sync),
         key_of: impl Fn(usize) -> Key + Sync,
     ) -> Option<Operator> {
-        let size = gatherers
-            .len()
-            .div_ceil(FEWEST_TASKS)
-            .clamp(FEWEST_TASK_RECEIVERS, MOST_TASK_RECEIVERS);
-        let chunk = |(index, part): (usize, &[Gatherer])| {
+        let size = count.div_ceil(FEWEST_TASKS).clamp(FEWEST_TASK_RECEIVERS, MOST_TASK_RECEIVERS);
+        let chunk = |index: usize| {
             if deadline.has_passed() {
                 return None;
             }
+            let part = index * size..count.min((index + 1) * size);
+            let part: Vec<Gatherer> = part.map(&gatherer).collect();
             let mut rows = Rows::default();
             rows.entries.reserve(part.iter().map(|g| g.rays as usize).sum());
             let (mut row, mut wave) = (Row::default(), Wave::default());
@@ -197,13 +198,14 @@ impl Gathering<'_> {
                 let key = key_of(index * size + k);
                 self.row((gatherer, view), key, (&mut row, &mut wave), &mut rows);
             }
-            Some(rows)
+            let traced = part.iter().map(|of| u64::from(of.rays)).sum::<u64>() + rows.further_rays;
+            Some((rows, traced, part.iter().filter(|of| of.rays > 0).count()))
         };
-        let chunks: Option<Vec<Rows>> = gatherers.par_chunks(size).enumerate().map(chunk).collect();
-        let chunks = chunks?;
-        let further: u64 = chunks.iter().map(|rows| rows.further_rays).sum();
-        let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum::<u64>() + further;
-        let receivers = gatherers.iter().filter(|g| g.rays > 0).count();
+        let made: Option<Vec<_>> = (0..count.div_ceil(size)).into_par_iter().map(chunk).collect();
+        let made = made?;
+        let rays = made.iter().map(|(_, rays, _)| rays).sum();
+        let receivers = made.iter().map(|(_, _, receivers)| receivers).sum();
+        let chunks = made.into_iter().map(|(rows, ..)| rows).collect();
         Some(Operator { chunks, receivers, rays })
     }
 

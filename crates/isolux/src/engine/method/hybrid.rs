@@ -65,7 +65,8 @@ const TRIED: usize = 64;
 pub(crate) struct Hybrid<'p, 's> {
     plan: &'p Plan<'s>,
     check_direct: DirectThere,
-    rows: Vec<Gatherer>,
+    /// The number of rays of each vertex of indirect light.
+    rays: Vec<u32>,
     /// The number of rays of each vertex that gathers for the stored map.
     rays_for_bare: u32,
     /// The check points, then the vertices that gather for the bare map.
@@ -128,17 +129,16 @@ impl<'p, 's> Hybrid<'p, 's> {
         let areas_m2 = plan.areas_m2();
         let allotted = allot(&areas_m2, rays);
         let fewest = FEWEST_UNJUDGED >> halvings;
-        let row = |vertex: usize| {
-            let in_gap = plan.mesh.standings[vertex] != Some(Standing::Open);
-            let (of, own) = (plan.mesh.gatherers[vertex], allotted[vertex]);
-            let needs_more = own > 0 && of.behind.is_none();
-            of.with_rays(if needs_more { own.max(fewest) } else { own }).in_gap(in_gap)
+        let own = |vertex: usize| {
+            let own = allotted[vertex];
+            let needs_more = own > 0 && plan.mesh.gatherers[vertex].behind.is_none();
+            if needs_more { own.max(fewest) } else { own }
         };
-        let rows: Vec<Gatherer> = (0..plan.mesh.indirect_vertices).map(row).collect();
-        let rows = if is_worth_trying(rows.len(), rays) && !without("noise-sharing") {
-            shared_by_noise(plan, rows, &areas_m2, (rays, most), key.with(u64::MAX - 1))
+        let own: Vec<u32> = (0..plan.mesh.indirect_vertices).map(own).collect();
+        let own = if is_worth_trying(own.len(), rays) && !without("noise-sharing") {
+            shared_by_noise(plan, own, &areas_m2, (rays, most), key.with(u64::MAX - 1))
         } else {
-            rows
+            own
         };
         let check_direct = check_points::direct(plan, checks, goal, key.with(0));
         let rays_for_bare = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
@@ -155,8 +155,8 @@ impl<'p, 's> Hybrid<'p, 's> {
         Self {
             plan,
             check_direct,
+            rays: own,
             rays_for_bare,
-            rows,
             fresh_rows,
             reader: None,
             readers,
@@ -179,7 +179,7 @@ impl<'p, 's> Hybrid<'p, 's> {
     pub(crate) fn pace_s(&self) -> f64 {
         let started = Instant::now();
         let lighting = self.plan.lighting;
-        let rows: Vec<Gatherer> = self.rows.iter().step_by(TRIED).copied().collect();
+        let rows: Vec<Gatherer> = self.rows().step_by(TRIED).collect();
         let gathering = Gathering::of(self.plan, &self.plan.light.direct);
         gathering.operator(&rows, |row| self.key.with(0).with(row as u64));
         if !lighting.is_measured_once() {
@@ -198,7 +198,11 @@ impl<'p, 's> Hybrid<'p, 's> {
         let is_for_bare =
             || self.plan.mesh.gathering_for_bare.binary_search(&(vertex as u32)).is_ok();
         let beyond = || if is_for_bare() { self.rays_for_bare } else { 0 };
-        self.rows.get(vertex).map_or_else(beyond, |row| row.rays)
+        self.rays.get(vertex).copied().unwrap_or_else(beyond)
+    }
+
+    fn rows(&self) -> impl Iterator<Item = Gatherer> + '_ {
+        self.rays.iter().enumerate().map(|(vertex, &rays)| row(self.plan, vertex, rays))
     }
 
     /// Increment `index`; `None` if the deadline passes meanwhile. Small increments that will be needed
@@ -212,14 +216,14 @@ impl<'p, 's> Hybrid<'p, 's> {
     ) -> Option<Increment> {
         if self.reader.is_none() {
             let with = (self.readers, self.key.with(u64::MAX));
-            self.reader = Some(reader(self.plan, &self.rows, with, deadline)?);
+            self.reader = Some(reader(self.plan, &self.rays, with, deadline)?);
         }
         if self.ahead.is_empty() {
             let next = (index + 1).next_multiple_of(FEWEST_TO_MISS);
             let is_ahead = next <= BELIEVED_INCREMENTS && !without("increments-ahead");
             let until = if is_ahead { next.min(self.end) } else { index + 1 };
-            let rows = self.rows.iter().chain(&self.fresh_rows);
-            let rays = rows.map(|row| u64::from(row.rays)).sum::<u64>() + u64::from(self.particles);
+            let rays = self.rays.iter().chain(self.fresh_rows.iter().map(|row| &row.rays));
+            let rays = rays.map(|&of| u64::from(of)).sum::<u64>() + u64::from(self.particles);
             let count = (until - index).min((RAYS_AHEAD / rays.max(1)).max(1)) as usize;
             let one = |k: usize| self.made(index + k as u64, checks, deadline);
             let made: Vec<_> = (0..count).into_par_iter().with_max_len(1).map(one).collect();
@@ -250,8 +254,9 @@ impl<'p, 's> Hybrid<'p, 's> {
         let kept = kept.map(|kept| kept.read(&plan.over(&direct), (1, key.with(6))));
         let at_ends = kept.as_ref().map_or(&direct, |kept| &kept.values);
         let gathering = Gathering::of(plan, at_ends);
+        let rows = (self.rays.len(), |vertex: usize| row(plan, vertex, self.rays[vertex]));
         let operator =
-            gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
+            gathering.operator_until(deadline, rows, |row| key.with(2).with(row as u64))?;
         let (gathered, unsettled_lx) = operator.solve_or_give_up(
             &plan.light.guess,
             &reflected_on,
@@ -333,56 +338,62 @@ pub(crate) fn rays_tried(rows: usize, rays: f64) -> f64 {
 /// the mean; memory allows `most`.
 fn shared_by_noise(
     plan: &Plan,
-    rows: Vec<Gatherer>,
+    own: Vec<u32>,
     areas_m2: &[f64],
     (rays, most): (f64, u32),
     key: Key,
-) -> Vec<Gatherer> {
+) -> Vec<u32> {
     let gathering = Gathering::of(plan, &plan.light.direct);
     let thought_lx = plan.tried.trial.noise_lx(rays);
     let of_one = libm::pow(f64::from(RAYS_TRIED), NET_ORDER);
     let shared = |every: usize| {
-        let some = || rows.iter().step_by(every);
+        let some = || own.iter().copied().enumerate().step_by(every);
         let tried: Vec<Gatherer> =
-            some().map(|row| row.with_rays(row.rays.min(RAYS_TRIED))).collect();
+            some().map(|(vertex, own)| row(plan, vertex, own.min(RAYS_TRIED))).collect();
         let with = (plan.light.reference_lx, key);
         let (variances_lx2, _) =
             ray_trial::variances_lx2(&gathering, &tried, &plan.light.guess, with);
         let areas_m2: Vec<f64> = areas_m2.iter().step_by(every).copied().collect();
-        let rays: Vec<u32> = some().map(|row| row.rays).collect();
+        let rays: Vec<u32> = some().map(|(_, own)| own).collect();
         allot_by_noise(&areas_m2, &variances_lx2, &rays)
             .filter(|shared| of_one * shared.before_lx > MORE_THAN_THOUGHT * thought_lx)
     };
     // The trial grows step by step while the receivers tried so far show that sharing may pay.
-    let mut every = rows.len().div_ceil(TRIED_FIRST).max(1);
+    let mut every = own.len().div_ceil(TRIED_FIRST).max(1);
     let mut found = shared(every);
     while every > 1 && found.is_some() {
         every = (every / TRIED_NEXT).max(1);
         found = shared(every);
     }
-    let Some(shared) = found else { return rows };
+    let Some(shared) = found else { return own };
     let wanted = libm::log2(of_one * shared.left_lx / thought_lx) / NET_ORDER;
     let allowed = libm::log2(f64::from(most) / mean_of(&shared.rays)).floor();
     let steps = wanted.round().min(MORE).min(allowed).max(0.0);
-    let with = |(row, rays): (Gatherer, u32)| {
+    let with = |(own, rays): (u32, u32)| {
         let rays = (f64::from(rays) * libm::exp2(steps)) as u32;
-        row.with_rays(rays.max(row.rays.min(FEWEST_UNJUDGED)))
+        rays.max(own.min(FEWEST_UNJUDGED))
     };
-    rows.into_iter().zip(shared.rays).map(with).collect()
+    own.into_iter().zip(shared.rays).map(with).collect()
+}
+
+/// The gatherer of a vertex of indirect light, with a number of rays.
+fn row(plan: &Plan, vertex: usize, rays: u32) -> Gatherer {
+    let in_gap = plan.mesh.standings[vertex] != Some(Standing::Open);
+    plan.mesh.gatherers[vertex].with_rays(rays).in_gap(in_gap)
 }
 
 /// A few rays of every vertex that read indirect light alone; `None` if the deadline passes.
 fn reader(
     plan: &Plan,
-    rows: &[Gatherer],
+    own: &[u32],
     (rays, key): (u32, Key),
     deadline: Deadline,
 ) -> Option<Operator> {
     let dark = vec![Rgb::BLACK; plan.mesh.elements.vertices().len()];
     let direct = DirectAtEnds::Read { values: &dark, level: u32::MAX };
     let gathering = Gathering { direct, ..Gathering::of(plan, &plan.light.direct) };
-    let few: Vec<Gatherer> = rows.iter().map(|row| row.with_rays(row.rays.min(rays))).collect();
-    gathering.operator_until(deadline, &few, |row| key.with(row as u64))
+    let few = (own.len(), |vertex: usize| row(plan, vertex, own[vertex].min(rays)));
+    gathering.operator_until(deadline, few, |row| key.with(row as u64))
 }
 
 /// The direct light of an increment at vertices and check points; that of the plan if it is measured once.
