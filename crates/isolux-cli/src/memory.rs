@@ -40,6 +40,20 @@ pub(crate) fn of_map() -> u64 {
     asked().map_or(USUAL, |bytes| bytes / 2)
 }
 
+/// What a map of a scene lacks whose triangles alone need more than it may take, and how to mend that.
+pub(crate) fn of_triangles(needed: u64, allowed: u64) -> (String, String) {
+    let (needs, may) = (show_bytes(needed), show_bytes(allowed));
+    let what = format!(
+        "for its triangles alone the map needs about {needs}, more than the {may} that it may take"
+    );
+    let (unit, bytes) = if needed < 1 << 30 { ("MiB", 1 << 20) } else { ("GiB", 1 << 30) };
+    let enough = (2 * needed).div_ceil(bytes);
+    (
+        what,
+        format!("give --max-memory {enough}{unit}, of which a map takes half, or a simpler scene"),
+    )
+}
+
 /// Memory for a lightmap, bytes.
 pub(crate) fn of_lightmap() -> u64 {
     asked().unwrap_or(USUAL)

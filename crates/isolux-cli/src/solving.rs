@@ -4,10 +4,11 @@ use crate::elsewhere::Increments;
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
+use crate::memory;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
-use crate::quantity::{show_bytes, show_seconds, show_share, significant};
+use crate::quantity::{show_seconds, show_share, significant};
 use crate::reach;
 use crate::saved_run::{self, Keeper};
 use crate::serving::Live;
@@ -293,13 +294,10 @@ fn failure(error: SolveError, (scene, run): (&Scene, &Run)) -> Failure {
 pub(crate) fn unsolvable(error: SolveError, (scene, path): (&Scene, &Path)) -> Failure {
     let source = path.display();
     match error {
-        SolveError::Memory { needed, allowed } => Failure::Refused(format!(
-            "{source}: for its triangles alone the map needs about {}, more than the {} that it may take; give --max-memory {}GiB, of \
-             which a map takes half, or a simpler scene",
-            show_bytes(needed),
-            show_bytes(allowed),
-            (2 * needed).div_ceil(1 << 30)
-        )),
+        SolveError::Memory { needed, allowed } => {
+            let (what, remedy) = memory::of_triangles(needed, allowed);
+            Failure::Refused(format!("{source}: {what}; {remedy}"))
+        }
         SolveError::NoLight => source::no_light(path, scene),
         SolveError::NoReceiver => {
             let (what, remedy) = source::NO_MAP;

@@ -15,6 +15,7 @@ use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
 use crate::installed::Installed;
+use crate::memory;
 use crate::origin::Extent;
 use crate::quantity::{flux, significant};
 use crate::shown::name;
@@ -80,7 +81,9 @@ impl Audit {
         let borders = borders::Borders::of(scene);
         let energy = energy::Energy::of(scene);
         let light = light::Light::of(scene);
-        let estimate = Estimate::of(scene, &SolveRequest::default());
+        let request =
+            SolveRequest { max_memory_bytes: memory::of_map(), ..SolveRequest::default() };
+        let estimate = Estimate::of(scene, &request);
         findings.extend(match scene.triangle_count() {
             0 => of_scene(source::NO_AREA),
             _ => [
@@ -90,8 +93,15 @@ impl Audit {
             ]
             .concat(),
         });
-        if matches!(estimate, Err(SolveError::NoReceiver)) && scene.triangle_count() > 0 {
-            findings.extend(of_scene(source::NO_MAP));
+        match estimate {
+            Err(SolveError::NoReceiver) if scene.triangle_count() > 0 => {
+                findings.extend(of_scene(source::NO_MAP));
+            }
+            Err(SolveError::Memory { needed, allowed }) => {
+                let (what, remedy) = memory::of_triangles(needed, allowed);
+                findings.extend(of_scene((&what, &remedy)));
+            }
+            _ => {}
         }
         findings.extend(lamps::findings(scene));
         let daylight = Daylight::of(scene);

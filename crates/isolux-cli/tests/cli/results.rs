@@ -173,7 +173,11 @@ fn too_little_memory_is_refused() {
     let home = Home::new();
     let ran = home.run(&["solve", "builtin:cube", "-o", "m.glb", "--max-memory", "1kB"]);
     assert_eq!(ran.code, 4, "{ran:?}");
-    assert!(ran.err.contains("--max-memory"), "{}", ran.err);
+    assert!(ran.err.contains("for its triangles alone"), "{}", ran.err);
+    // What is checked says so, too, and what would do.
+    let ran = home.run(&["check", "builtin:hall", "--max-memory", "40MB"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.out.contains("give --max-memory 90MiB"), "{}", ran.out);
     assert_eq!(home.names(), Vec::<String>::new());
 }
 
