@@ -29,8 +29,16 @@ thread_local! {
 #[macro_export]
 macro_rules! target {
     ($name:literal) => {
-        $crate::libfuzzer_sys::fuzz_target!(|bytes: &[u8]| $crate::read($name, bytes));
+        $crate::libfuzzer_sys::fuzz_target!(
+            init: $crate::begin($name),
+            |bytes: &[u8]| $crate::read($name, bytes)
+        );
     };
+}
+
+/// Reads good files, so that what is made once is made before the time of hostile files counts.
+pub fn begin(name: &str) {
+    seeds::of(name).iter().for_each(|seed| read(name, seed));
 }
 
 /// Gives bytes to a reader as they are and, where that is something else, with their checksums repaired.

@@ -183,7 +183,8 @@ impl PilotResult {
             && known(&light.direct_variance)
             && known(&[light.reference_lx, light.mean_reflectance, errors.interpolation])
             && light.bright.as_ref().is_none_or(|bright| bright.are_of(triangles))
-            && errors.of_elements.iter().all(|of| (of.node as usize) < coarse && of.area_m2 >= 0.0)
+            && !errors.of_elements.is_empty()
+            && errors.of_elements.iter().all(|of| (of.node as usize) < coarse && of.is_sound())
             && errors.parts.are_of(nodes, indirect)
             && tried.aim.as_ref().is_none_or(|aim| {
                 Emission::new(scene).is_some_and(|emission| aim.is_of(scene, &emission))

@@ -40,6 +40,12 @@ pub(crate) struct LeafError {
 }
 
 impl LeafError {
+    /// Whether its numbers can be those of an element.
+    pub(crate) fn is_sound(&self) -> bool {
+        let sizes = [self.area_m2, self.error, self.weight, self.seen];
+        sizes.iter().all(|size| size.is_finite() && *size >= 0.0) && self.excess.is_finite()
+    }
+
     /// The contribution to the squared error of the scene.
     pub(crate) fn squared(&self) -> f64 {
         let counted = self.weight * self.error;

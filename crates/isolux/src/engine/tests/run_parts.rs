@@ -9,7 +9,7 @@ use crate::map::Method;
 use crate::scene::Scene;
 use proptest::prelude::*;
 use std::ops::Range;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 fn go_on(_: &Progress, _: &SoFar<'_>) -> Watch {
     Watch::Continue
@@ -137,4 +137,18 @@ fn parts_that_do_not_belong_together_are_refused() {
     assert_eq!(error(&part, &finer), SolveError::OtherRun("the accuracy"));
     let radiosity = request(Method::Radiosity);
     assert_eq!(make_pilot(&scene, &radiosity, &mut go_on).unwrap_err(), SolveError::Indivisible);
+}
+
+#[test]
+fn pilots_without_errors_of_elements_are_refused() {
+    let (scene, request) = (room(), request(Method::Hybrid));
+    let mut spoilt = pilot(&scene, &request);
+    let made = |pilot: &PilotState| {
+        with_parts(&scene, &request, pilot, |maker| maker.make(0..1, &mut go_on)).map(drop)
+    };
+    assert_eq!(made(&spoilt), Ok(()));
+    Arc::get_mut(&mut spoilt.result.errors).unwrap().of_elements[0].error = f64::NAN;
+    assert_eq!(made(&spoilt), Err(SolveError::Unsound("the saved pilot")));
+    Arc::get_mut(&mut spoilt.result.errors).unwrap().of_elements.clear();
+    assert_eq!(made(&spoilt), Err(SolveError::Unsound("the saved pilot")));
 }
