@@ -3,6 +3,7 @@
 
 use crate::kept::KEPT;
 use crate::seal;
+use isolux::engine::MapReader;
 use isolux::scene::{Scene, SceneParts};
 use isolux_formats::lint::audit;
 use isolux_formats::obj::Materials;
@@ -15,6 +16,9 @@ use tempfile::TempDir;
 
 /// The longest cache and checkpoint that is read, bytes.
 const MOST_BYTES: u64 = 1 << 24;
+
+/// Triangles of maps that are asked for their light.
+const ASKED: u32 = 4;
 
 /// Photometric files are converted whose sum of bytes is below this, of 256.
 const CONVERTED: u8 = 16;
@@ -161,5 +165,13 @@ fn map(home: &Home, bytes: &[u8]) -> bool {
     let path = home.write("map.glb", bytes);
     map_glb::is_map(&path);
     map_glb::is_export(&path);
-    map_glb::read_with_texels(&path).is_ok()
+    let Ok(Loaded { value: file, .. }) = map_glb::read_with_texels(&path) else { return false };
+    // What is read can be asked.
+    let reader = MapReader::new(&file.scene, &file.map);
+    for triangle in 0..file.scene.triangle_count().min(ASKED) {
+        for back in [false, true] {
+            let _ = reader.at(triangle, back, 0.3, 0.3);
+        }
+    }
+    true
 }
