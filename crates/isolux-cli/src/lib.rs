@@ -99,6 +99,7 @@ use std::ffi::OsString;
 /// Runs the command with these words, the first of which is its own name, to its exit code. It speaks on the streams of the process
 /// and may end it: it is for programs that do nothing else.
 pub fn command(words: impl Iterator<Item = OsString>) -> u8 {
+    interrupt::signals::write_on_at_limits();
     match arguments::read(words) {
         Ok(flags) => {
             let ended = run(&flags);

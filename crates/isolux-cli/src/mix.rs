@@ -1,5 +1,6 @@
 //! `isolux mix`: luminaires re-dimmed without a new run.
 
+use crate::claim::Claim;
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::MixFlags;
@@ -34,6 +35,7 @@ pub(crate) fn run(flags: &MixFlags, json: bool) -> Result<Outcome, Failure> {
         output.differs_from(&part.path)?;
     }
     let parts: Vec<MixPart<'_>> = read.iter().map(Part::asked).collect();
+    let _claim = Claim::of(&output)?;
     let (scene, map) = mix(&parts).map_err(|error| failure(&error, &read))?;
     map_file::write(&output, &scene, &map)?;
     let report = Report::of((&scene, &map), started.elapsed().as_secs_f64(), &output);

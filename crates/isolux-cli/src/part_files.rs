@@ -1,6 +1,7 @@
 //! Files of pilots and of parts of runs.
 
 use crate::failure::Failure;
+use crate::quantity::show_bytes;
 use crate::source::bad_file;
 use isolux::engine::PilotState;
 use isolux_formats::checkpoint::{self, Checkpoint, Part};
@@ -11,6 +12,20 @@ use std::path::Path;
 pub(crate) fn read_pilot(path: &Path, max_bytes: u64) -> Result<PilotState, Failure> {
     let remedy = "leave it out: the same pilot is made again";
     read(path, max_bytes, checkpoint::pilot, remedy)
+}
+
+/// Reads what is kept of a run, unless it takes more memory than a map may.
+pub(crate) fn whole(path: &Path, max_bytes: u64) -> Result<Checkpoint, Failure> {
+    let bytes = std::fs::metadata(path).map_or(0, |known| known.len());
+    if bytes > max_bytes {
+        let [takes, may] = [bytes, max_bytes].map(show_bytes);
+        let path = path.display();
+        let what = format!(
+            "{path}: takes {takes} of memory, more than the {may} that a map may take; raise --max-memory, of which a map takes half"
+        );
+        return Err(Failure::Refused(what));
+    }
+    checkpoint::read(path, max_bytes).map_err(|problem| bad_file(Problems::from(problem)))
 }
 
 /// Writes the result of a pilot.
@@ -37,6 +52,6 @@ fn read<T>(
     of: impl Fn(&Checkpoint) -> Result<T, String>,
     remedy: &str,
 ) -> Result<T, Failure> {
-    let read = checkpoint::read(path, max_bytes).map_err(|p| bad_file(Problems::from(p)))?;
+    let read = whole(path, max_bytes)?;
     of(&read).map_err(|what| bad_file(Problems::from(Problem::new(path, "", what, remedy))))
 }

@@ -23,9 +23,9 @@ pub(crate) fn path_beside(map: &Path) -> PathBuf {
     map.with_extension("checkpoint")
 }
 
-/// Where the result of its pilot is kept, once for all states on the same mesh.
+/// Where the result of its pilot is kept, once for all states on the same mesh. `MAP.pilot` may be one that was asked for.
 fn pilot_beside(map: &Path) -> PathBuf {
-    map.with_extension("pilot")
+    map.with_extension("checkpoint.pilot")
 }
 
 /// Keeps the state of an unfinished run, and removes that of a finished one.
@@ -119,7 +119,7 @@ pub(crate) fn read(output: &OutputPath, max_bytes: u64) -> Result<Option<RunStat
         note(Note::Info, text);
         return Ok(None);
     }
-    let checkpoint = checkpoint::read(&path, max_bytes).map_err(|p| bad_file(Problems::from(p)))?;
+    let checkpoint = part_files::whole(&path, max_bytes)?;
     let state = checkpoint::state(&checkpoint).map_err(|what| {
         let remedy = "remove it and solve from the beginning";
         bad_file(Problems::from(Problem::new(&path, "", what, remedy)))

@@ -3,6 +3,7 @@
 use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
 use crate::memory;
+use crate::part_files;
 use crate::quantity::{show_count, show_share};
 use crate::request::method_name;
 use crate::shown::name;
@@ -17,7 +18,7 @@ use std::path::Path;
 
 /// Prints a state, a pilot or a part.
 pub(super) fn show(path: &Path, json: bool) -> Result<(), Failure> {
-    let read = checkpoint::read(path, memory::of_map()).map_err(|p| bad_file(Problems::from(p)))?;
+    let read = part_files::whole(path, memory::of_map())?;
     let contents = checkpoint::contents(&read).map_err(|what| {
         let remedy = "remove it, and make it again";
         bad_file(Problems::from(Problem::new(path, "", what, remedy)))

@@ -1,18 +1,22 @@
 //! The signals that ask for an end: Ctrl-C, termination, and the end of the terminal.
 
 #[cfg(not(unix))]
+pub(crate) const fn write_on_at_limits() {}
+
+#[cfg(not(unix))]
 pub(crate) fn listen(handler: impl FnMut() + Send + 'static) -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(handler)
 }
 
 #[cfg(unix)]
-pub(crate) use unix::listen;
+pub(crate) use unix::{listen, write_on_at_limits};
 
 #[cfg(unix)]
 mod unix {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
     use signal_hook::iterator::Signals;
     use std::io;
+    use std::sync::Arc;
     use std::thread::Builder;
 
     /// Calls the handler at each signal, on a thread of its own. The end of the terminal is none below `nohup`, which has it ignored.
@@ -22,6 +26,12 @@ mod unix {
         let mut signals = Signals::new(all)?;
         let wait = move || signals.forever().for_each(|_| handler());
         Builder::new().name("signals".into()).spawn(wait).map(drop)
+    }
+
+    /// A file that reaches the size which the system allows (`ulimit -f`) ends in an error of writing, not in the end of the process.
+    pub(crate) fn write_on_at_limits() {
+        // Where the signal cannot be caught, it ends the process as before.
+        let _ = signal_hook::flag::register(SIGXFSZ, Arc::default());
     }
 
     /// Whether whoever started this process has it ignore a signal. Where the system does not tell, it is not.

@@ -24,7 +24,7 @@ fn a_run_of_more_than_a_day_ends_and_says_what_is_reachable() {
     for words in ["cannot be reached in a day", "in an hour", "--resume", "--time-limit 72h"] {
         assert!(ran.err.contains(words), "{words}: {}", ran.err);
     }
-    assert_eq!(home.names(), ["m.checkpoint", "m.glb", "m.pilot"]);
+    assert_eq!(home.names(), ["m.checkpoint", "m.checkpoint.pilot", "m.glb"]);
     let increments = |home: &Home| {
         home.run(&["info", "m.glb", "--json"]).json()["provenance"]["increments"].as_u64().unwrap()
     };

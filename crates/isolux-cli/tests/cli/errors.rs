@@ -122,3 +122,16 @@ fn names_of_files_act_on_no_terminal() {
     let info = home.run(&["info", "named.toml", "--json"]);
     assert_eq!(info.json()["cameras"][0], "lamp\u{202e}gpj.\u{1b}[31m");
 }
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_may_not_grow_is_told_and_leaves_nothing() {
+    let home = Home::new();
+    let words = ["solve", "builtin:cube", "--accuracy", "20%", "-o", "m.glb"];
+    let mut command = std::process::Command::new("sh");
+    command.args(["-c", "ulimit -f 2; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_isolux")]);
+    let ran = Ran::of(&command.args(words).current_dir(home.path("")).output().unwrap());
+    assert_eq!(ran.code, 4, "{ran:?}");
+    assert!(ran.err.contains("m.glb: cannot be written: "), "{}", ran.err);
+    assert_eq!(home.names(), Vec::<String>::new());
+}

@@ -33,7 +33,7 @@ fn an_interrupted_run_saves_its_map_and_its_state() {
     for signal in ["INT", "TERM", "HUP"] {
         let home = Home::new();
         assert_eq!(interrupt_with(&home, signal, &[]).0, 130, "{signal}");
-        assert_eq!(home.names(), ["m.checkpoint", "m.glb", "m.pilot"], "{signal}");
+        assert_eq!(home.names(), ["m.checkpoint", "m.checkpoint.pilot", "m.glb"], "{signal}");
         assert_eq!(home.run(&["info", "m.glb"]).code, 0, "{signal}");
     }
 }
@@ -43,7 +43,7 @@ fn an_interrupted_run_says_that_texels_are_missing() {
     let home = Home::new();
     let (code, said) = interrupt_with(&home, "INT", &["--layout", "texels"]);
     assert!(code == 130 && said.contains("the texels are not baked"), "{code}: {said}");
-    assert_eq!(home.names(), ["m.checkpoint", "m.glb", "m.pilot"]);
+    assert_eq!(home.names(), ["m.checkpoint", "m.checkpoint.pilot", "m.glb"]);
 }
 
 /// A bake that takes more than a second.
@@ -90,7 +90,7 @@ fn a_run_interrupted_in_baking_goes_on_with_it() {
     assert!(said.contains("the texels are not baked") && said.contains("--resume"), "{said}");
     // What an earlier bake left beside the map is not of it.
     assert!(said.contains("b.exr: is of an earlier bake"), "{said}");
-    assert_eq!(home.names(), ["b.checkpoint", "b.exr", "b.glb", "b.pilot"]);
+    assert_eq!(home.names(), ["b.checkpoint", "b.checkpoint.pilot", "b.exr", "b.glb"]);
     let resumed = home.run(&[&sparse[..], &["--resume"]].concat());
     assert!(resumed.code == 0 && resumed.err.contains("is solved already"), "{resumed:?}");
     assert_eq!(home.names(), ["b.exr", "b.glb"]);
@@ -176,14 +176,17 @@ fn a_run_with_other_flags_is_not_resumed() {
 fn a_resumed_run_does_not_repeat_its_pilot() {
     let home = Home::new();
     assert_eq!(interrupt(&home), 130);
-    let pilot = std::fs::read(home.path("m.pilot")).unwrap();
+    let pilot = std::fs::read(home.path("m.checkpoint.pilot")).unwrap();
     let mut spoilt = pilot.clone();
     spoilt[pilot.len() / 2] ^= 1;
-    home.file("m.pilot", &spoilt);
+    home.file("m.checkpoint.pilot", &spoilt);
     let resume = [&SOLVE[..], &["--resume"]].concat();
     let refused = home.run(&resume);
-    assert!(refused.code == 2 && refused.err.contains("m.pilot: its contents"), "{refused:?}");
-    home.file("m.pilot", &pilot);
+    assert!(
+        refused.code == 2 && refused.err.contains("m.checkpoint.pilot: its contents"),
+        "{refused:?}"
+    );
+    home.file("m.checkpoint.pilot", &pilot);
     let resumed = home.run(&resume);
     assert!(resumed.code == 0 && !resumed.err.contains("subdividing"), "{resumed:?}");
     assert_eq!(home.names(), ["m.glb"]);

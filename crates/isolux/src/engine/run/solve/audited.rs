@@ -26,7 +26,6 @@ impl Run<'_, '_> {
         let is_last = matches!(end, Some(End::Reached | End::InVain)) && !self.stopped;
         let audit = self.request.audit && is_last;
         let Some(audit) = audit.then(|| self.audit(work, accuracy)).flatten() else { return end };
-        self.audited.audits = audit.number;
         if !audit.contradicts {
             self.audit = Some(audit);
             return end;
@@ -40,6 +39,8 @@ impl Run<'_, '_> {
             self.audit = Some(audit);
             return Some(End::Contradicted);
         }
+        // An audit that ends the run is not kept: a run that ends by its time limit and goes on makes the same one again.
+        self.audited.audits = audit.number;
         self.audited.true_over_told *= times;
         self.end(work, accuracy)
     }
