@@ -6,6 +6,7 @@ use crate::caller;
 use crate::failure::Failure;
 use crate::notes::{Note, note};
 use crate::stop::Stop;
+use isolux::engine::StopFlag;
 use std::sync::{Arc, OnceLock};
 
 /// The one that listens, from the first run on.
@@ -54,6 +55,11 @@ impl Interrupt {
     /// Whether a signal has arrived.
     pub(crate) fn is_requested(&self) -> bool {
         self.0.is_asked_for()
+    }
+
+    /// The request to end, for the engine, which heeds it within its steps.
+    pub(crate) fn flag(&self) -> StopFlag {
+        self.0.flag()
     }
 
     /// From now on the first signal asks for an end: something is being made that can be kept.

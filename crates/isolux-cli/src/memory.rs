@@ -3,7 +3,7 @@
 use crate::caller;
 use crate::ending;
 use crate::failure::Failure;
-use crate::quantity::show_bytes;
+use crate::quantity::{show_bytes, show_more_bytes};
 use isolux_memory::{Counted, Lack};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -42,7 +42,7 @@ pub(crate) fn of_map() -> u64 {
 
 /// What a map of a scene lacks whose triangles alone need more than it may take, and how to mend that.
 pub(crate) fn of_triangles(needed: u64, allowed: u64) -> (String, String) {
-    let (needs, may) = (show_bytes(needed), show_bytes(allowed));
+    let [needs, may] = show_more_bytes(needed, allowed);
     let what = format!(
         "for its triangles alone the map needs about {needs}, more than the {may} that it may take"
     );

@@ -47,6 +47,13 @@ pub(crate) fn run(flags: &MergeFlags, json: bool) -> Result<Outcome, Failure> {
     let request = request::of_run(&merged.part.identity, !flags.no_filter);
     let pilot = flags.pilot.as_deref().map(|path| read_pilot(path, request.max_memory_bytes));
     let pilot = pilot.transpose()?;
+    let other = pilot.as_ref().and_then(|p| merged.part.identity.difference(&p.identity));
+    if let Some((what, pilot)) = other.zip(flags.pilot.as_ref()) {
+        return Err(Failure::bad_input(format!(
+            "{}: the pilot and the parts differ in {what}; give the pilot that the parts were made with, or leave --pilot out",
+            pilot.display()
+        )));
+    }
     let interrupt = Interrupt::install()?;
     let mut reporter = Reporter::new(flags.progress);
     let solved =
@@ -56,7 +63,7 @@ pub(crate) fn run(flags: &MergeFlags, json: bool) -> Result<Outcome, Failure> {
         });
     reporter.finish();
     let solution = solved.map_err(|error| match error {
-        SolveError::OtherRun(what) => of_other_run(what, (&path, &merged.scene), pilot.is_some()),
+        SolveError::OtherRun(what) => of_other_run(what, &path, &merged.scene),
         SolveError::Missing(range) => incomplete(&output, range),
         other => unsolvable(other, (&scene, &path)),
     })?;
@@ -81,13 +88,18 @@ pub(crate) fn run(flags: &MergeFlags, json: bool) -> Result<Outcome, Failure> {
     Ok(outcome)
 }
 
-/// Parts that are not of the run that their scene and pilot tell of; `of_parts` is the scene by the name that they have of it.
-fn of_other_run(what: &str, (scene, of_parts): (&Path, &str), has_pilot: bool) -> Failure {
+/// Parts that are not of the run that their scene tells of; `of_parts` is the scene by the name that they have of it.
+fn of_other_run(what: &str, scene: &Path, of_parts: &str) -> Failure {
+    let is_by_name = scene.as_os_str() == of_parts;
     let scene = scene.display();
     Failure::bad_input(match what {
+        "the scene" if is_by_name => {
+            format!(
+                "{scene}: has changed since the parts were made of it; name theirs with --scene"
+            )
+        }
         "the scene" => format!(
-            "{scene}: is not the scene that the parts{} are of, which was `{of_parts}`, or it has changed since; name theirs with --scene",
-            if has_pilot { " and the pilot" } else { "" }
+            "{scene}: is not the scene that the parts are of, which was `{of_parts}`, or it has changed since; name theirs with --scene"
         ),
         _ => format!(
             "{scene}: the parts differ in {what}; name their scene with --scene, their pilot with --pilot, and use the same build"

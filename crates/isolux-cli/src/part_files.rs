@@ -1,7 +1,7 @@
 //! Files of pilots and of parts of runs.
 
 use crate::failure::Failure;
-use crate::quantity::show_bytes;
+use crate::quantity::show_more_bytes;
 use crate::source::bad_file;
 use isolux::engine::PilotState;
 use isolux_formats::checkpoint::{self, Checkpoint, Part};
@@ -15,17 +15,19 @@ pub(crate) fn read_pilot(path: &Path, max_bytes: u64) -> Result<PilotState, Fail
 }
 
 /// Reads what is kept of a run, unless it takes more memory than a map may.
-pub(crate) fn whole(path: &Path, max_bytes: u64) -> Result<Checkpoint, Failure> {
+pub(crate) fn whole(path: &Path, max_bytes: u64, remedy: &str) -> Result<Checkpoint, Failure> {
     let bytes = std::fs::metadata(path).map_or(0, |known| known.len());
     if bytes > max_bytes {
-        let [takes, may] = [bytes, max_bytes].map(show_bytes);
+        let [takes, may] = show_more_bytes(bytes, max_bytes);
         let path = path.display();
         let what = format!(
             "{path}: takes {takes} of memory, more than the {may} that a map may take; raise --max-memory, of which a map takes half"
         );
         return Err(Failure::Refused(what));
     }
-    checkpoint::read(path, max_bytes).map_err(|problem| bad_file(Problems::from(problem)))
+    checkpoint::read(path, max_bytes).map_err(|problem| {
+        bad_file(Problems::from(Problem { remedy: remedy.to_owned(), ..problem }))
+    })
 }
 
 /// Writes the result of a pilot.
@@ -52,6 +54,6 @@ fn read<T>(
     of: impl Fn(&Checkpoint) -> Result<T, String>,
     remedy: &str,
 ) -> Result<T, Failure> {
-    let read = whole(path, max_bytes)?;
+    let read = whole(path, max_bytes, remedy)?;
     of(&read).map_err(|what| bad_file(Problems::from(Problem::new(path, "", what, remedy))))
 }

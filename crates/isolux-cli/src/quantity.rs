@@ -368,6 +368,12 @@ pub(crate) fn show_bytes(bytes: u64) -> String {
     }
 }
 
+/// A number of bytes and one that it exceeds, for reading: exact where they would read the same.
+pub(crate) fn show_more_bytes(more: u64, than: u64) -> [String; 2] {
+    let shown = [more, than].map(show_bytes);
+    if shown[0] == shown[1] { [more, than].map(|bytes| format!("{bytes} B")) } else { shown }
+}
+
 /// A time for reading: `0.35 s`, `12 s`, `5 min 20 s`, `3 h 5 min`, `12 days`, `more than a year`.
 pub(crate) fn show_seconds(seconds: f64) -> String {
     let whole = seconds.round();
@@ -530,6 +536,8 @@ mod tests {
         assert_eq!(show_bytes(3 << 29), "1.5 GiB");
         assert_eq!(show_bytes(u64::MAX), "16.0 EiB");
         assert_eq!(show_bytes(12), "12 B");
+        assert_eq!(show_more_bytes(5_000_010, 5_000_000), ["5000010 B", "5000000 B"]);
+        assert_eq!(show_more_bytes(3 << 29, 12), ["1.5 GiB", "12 B"]);
         for (seconds, text) in [
             (0.123, "0.12 s"),
             (12.3, "12 s"),

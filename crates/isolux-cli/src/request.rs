@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::flags::{LayoutName, MethodName, Quality, RadiosityFlags, SolveFlags};
 use crate::memory;
 use crate::output::OutputPath;
-use isolux::engine::{IrradianceCache, RadiositySettings, RunIdentity, SolveRequest};
+use isolux::engine::{IrradianceCache, RadiositySettings, RunIdentity, SolveRequest, StopFlag};
 use isolux::map::Method;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::path::Path;
@@ -124,6 +124,7 @@ fn request(flags: &SolveFlags) -> SolveRequest {
         accuracy: Some(flags.quality.map_or(flags.accuracy, accuracy)),
         mesh_accuracy: flags.mesh_accuracy,
         time_limit: flags.time_limit,
+        stop: StopFlag::default(),
         seed: flags.seed,
         filter: !flags.no_filter,
         audit: !flags.no_audit,
@@ -140,6 +141,7 @@ pub(crate) fn of_run(of: &RunIdentity, filter: bool) -> SolveRequest {
         accuracy: of.accuracy,
         mesh_accuracy: of.mesh_accuracy,
         time_limit: None,
+        stop: StopFlag::default(),
         seed: of.seed,
         filter,
         audit: of.audit,

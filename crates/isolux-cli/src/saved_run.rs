@@ -119,11 +119,10 @@ pub(crate) fn read(output: &OutputPath, max_bytes: u64) -> Result<Option<RunStat
         note(Note::Info, text);
         return Ok(None);
     }
-    let checkpoint = part_files::whole(&path, max_bytes)?;
-    let state = checkpoint::state(&checkpoint).map_err(|what| {
-        let remedy = "remove it and solve from the beginning";
-        bad_file(Problems::from(Problem::new(&path, "", what, remedy)))
-    })?;
+    let remedy = "remove it and solve from the beginning";
+    let checkpoint = part_files::whole(&path, max_bytes, remedy)?;
+    let state = checkpoint::state(&checkpoint)
+        .map_err(|what| bad_file(Problems::from(Problem::new(&path, "", what, remedy))))?;
     let path = pilot_beside(output.path());
     let pilot = match path.exists() {
         true => Some(part_files::read_pilot(&path, max_bytes)?),

@@ -152,7 +152,7 @@ fn tell_of_time(solution: &Solution, limit: Option<Duration>) {
         note(
             Note::Info,
             format!(
-                "the time limit of {} was exceeded: one increment for {} receivers takes {} here",
+                "the time limit of {} was exceeded: to prepare a map of {} receivers and estimate its light takes {} here",
                 show_seconds(limit_s),
                 solution.map.elements.vertices().len(),
                 show_seconds(solution.time_s)
@@ -239,6 +239,7 @@ fn follow(
     failure: impl Fn(SolveError) -> Failure,
 ) -> Result<Solved, Failure> {
     let interrupt = Interrupt::install()?;
+    let request = &SolveRequest { stop: interrupt.flag(), ..request.clone() };
     // Whoever gives a time limit, or watches, decides himself.
     let is_open = request.time_limit.is_none() && live.is_none();
     let mut beyond = None;

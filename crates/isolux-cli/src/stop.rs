@@ -1,12 +1,13 @@
 //! How work is stopped: it is asked to end with what it has come to, or it is left alone.
 
+use isolux::engine::StopFlag;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What is wanted of work, and whether it has something to lose. All threads of it share one.
 #[derive(Debug, Default)]
 pub struct Stop {
-    is_asked_for: AtomicBool,
+    asks: StopFlag,
     keeps: AtomicBool,
     is_left: AtomicBool,
 }
@@ -17,12 +18,17 @@ struct Left;
 impl Stop {
     /// Asks the work to end with what it has come to. Whether it was asked before.
     pub fn ask(&self) -> bool {
-        self.is_asked_for.swap(true, Ordering::Relaxed)
+        self.asks.raise()
     }
 
     /// Whether the work is to end.
     pub fn is_asked_for(&self) -> bool {
-        self.is_asked_for.load(Ordering::Relaxed)
+        self.asks.is_raised()
+    }
+
+    /// The request, for the engine.
+    pub(crate) fn flag(&self) -> StopFlag {
+        self.asks.clone()
     }
 
     /// Whether the work has come to something that would be lost if it were left. At its beginning it has not.

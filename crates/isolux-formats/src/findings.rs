@@ -4,8 +4,8 @@ use crate::counted;
 use crate::{Loaded, Problem, Problems};
 use std::path::{Path, PathBuf};
 
-/// More findings of one kind than this are only counted: a broken file repeats itself.
-const MOST_LISTED: usize = 100;
+/// More problems than this, or more warnings, are only counted: a broken file repeats itself.
+const MOST_LISTED: usize = 20;
 
 /// Problems and warnings of a file and of the files it names.
 #[derive(Debug)]

@@ -64,14 +64,18 @@ pub(crate) fn decoded(bytes: Vec<u8>) -> String {
     if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n") } else { text }
 }
 
-/// The text of bytes that begin with the mark of UTF-16, without it.
+/// The text of bytes in UTF-16, without its mark. Without a mark, two characters of ASCII at the beginning tell it.
 pub(crate) fn from_utf16(bytes: &[u8]) -> Option<String> {
-    let unit: fn([u8; 2]) -> u16 = match bytes {
-        [0xff, 0xfe, ..] => u16::from_le_bytes,
-        [0xfe, 0xff, ..] => u16::from_be_bytes,
+    let is_text =
+        |a: u8, b: u8| [a, b].iter().all(|c| c.is_ascii_graphic() || c.is_ascii_whitespace());
+    let (unit, mark): (fn([u8; 2]) -> u16, usize) = match *bytes {
+        [0xff, 0xfe, ..] => (u16::from_le_bytes, 2),
+        [0xfe, 0xff, ..] => (u16::from_be_bytes, 2),
+        [a, 0, b, 0, ..] if is_text(a, b) => (u16::from_le_bytes, 0),
+        [0, a, 0, b, ..] if is_text(a, b) => (u16::from_be_bytes, 0),
         _ => return None,
     };
-    let (pairs, _) = bytes[2..].as_chunks();
+    let (pairs, _) = bytes[mark..].as_chunks();
     let units = pairs.iter().map(|&pair| unit(pair));
     Some(char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect())
 }
@@ -86,6 +90,8 @@ mod tests {
         for (mark, to_bytes) in [
             (&b"\xff\xfe"[..], u16::to_le_bytes as fn(u16) -> [u8; 2]),
             (b"\xfe\xff", u16::to_be_bytes),
+            (b"", u16::to_le_bytes),
+            (b"", u16::to_be_bytes),
         ] {
             let units: Vec<[u8; 2]> = text.encode_utf16().map(to_bytes).collect();
             assert_eq!(decoded([mark, units.as_flattened()].concat()), text);

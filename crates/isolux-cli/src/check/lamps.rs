@@ -5,6 +5,7 @@ use super::finding::Finding;
 use super::outside::is_outside;
 use isolux::geometry::{Direction, Point, Ray, Vector};
 use isolux::scene::{Body, Finish, Luminaire, LuminaireKind, Material, Scene};
+use rayon::prelude::*;
 
 /// Findings shown one by one; more are counted.
 const MAX_SHOWN: usize = 10;
@@ -51,7 +52,7 @@ struct Seen {
 
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
     let troubled: Vec<(&Luminaire, Trouble)> =
-        scene.luminaires().iter().filter_map(|l| Some((l, trouble(scene, l)?))).collect();
+        scene.luminaires().par_iter().filter_map(|l| Some((l, trouble(scene, l)?))).collect();
     let mut found: Vec<Finding> =
         troubled.iter().take(MAX_SHOWN).map(|(l, trouble)| finding(l, *trouble)).collect();
     if troubled.len() > MAX_SHOWN {

@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// Prints a state, a pilot or a part.
 pub(super) fn show(path: &Path, json: bool) -> Result<(), Failure> {
-    let read = part_files::whole(path, memory::of_map())?;
+    let read = part_files::whole(path, memory::of_map(), "give another file, or make it again")?;
     let contents = checkpoint::contents(&read).map_err(|what| {
         let remedy = "remove it, and make it again";
         bad_file(Problems::from(Problem::new(path, "", what, remedy)))

@@ -46,7 +46,7 @@ fn parts_that_cannot_be_merged_are_named() {
         (&["cut.part"], "cut.part: its contents do not match their checksum"),
         (
             &["note.part"],
-            "note.part: it is not a checkpoint, a pilot or a part of a run of isolux; give another file",
+            "note.part: it is not a checkpoint, a pilot or a part of a run of isolux; leave it out, or make this part again",
         ),
         (&["none.part"], "none.part: does not exist"),
     ] {

@@ -1,5 +1,7 @@
 //! Numbers between commas.
 
+use crate::counted::shown;
+
 /// What a column holds.
 #[derive(Clone, Copy)]
 pub(super) struct Column {
@@ -60,7 +62,7 @@ pub(super) fn count(
         && value <= f64::from(*range.end())
         && value.fract() == 0.0;
     is_whole.then_some(value as u32).ok_or_else(|| {
-        format!("the {name} is {value}, not one of {} to {}", range.start(), range.end())
+        format!("the {name} is {}, not one of {} to {}", shown(value), range.start(), range.end())
     })
 }
 
@@ -76,6 +78,8 @@ pub(super) fn value(fields: &[&str], column: Column) -> Result<Option<f64>, Stri
     let [least, most] = column.range;
     match (least..=most).contains(&value) {
         true => Ok(Some(value)),
-        false => Err(format!("the {} is {value}, not one of {least} to {most}", column.name)),
+        false => {
+            Err(format!("the {} is {}, not one of {least} to {most}", column.name, shown(value)))
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::fields::{self, count, number, text, value};
 use super::record::{Hour, Weather, WeatherPlace};
+use crate::counted::shown;
 use crate::findings::Findings;
 use crate::plain_text::{Line, decode, lines};
 use crate::{Loaded, Problem, Problems};
@@ -90,7 +91,7 @@ fn location(first: &[&str]) -> Result<WeatherPlace, String> {
     let within = |index, name: &str, most: f64| {
         let value = number(first, index, name)?;
         let is_in = value.abs() <= most;
-        is_in.then_some(value).ok_or_else(|| format!("the {name} is {value}"))
+        is_in.then_some(value).ok_or_else(|| format!("the {name} is {}", shown(value)))
     };
     let words = (1..4).map(|index| text(first, index)).filter(|w| !w.is_empty() && *w != "-");
     Ok(WeatherPlace {

@@ -1,6 +1,7 @@
 //! The numbers of a file, one after the other, each with its place.
 
 use crate::Problem;
+use crate::counted::shown;
 use crate::plain_text::Line;
 use std::path::Path;
 
@@ -90,7 +91,8 @@ impl<'a> Numbers<'a> {
         if holds(value) {
             return Ok(value);
         }
-        Err(self.problem(format!("{} is {value}, but must be {must}", what()), "correct it"))
+        Err(self
+            .problem(format!("{} is {}, but must be {must}", what(), shown(value)), "correct it"))
     }
 
     /// The next number, a whole one from `least` to `most`.
@@ -114,7 +116,7 @@ impl<'a> Numbers<'a> {
             let angle = self.number_that(name, &must, |a| (least..=most).contains(&a))?;
             if let Some(before) = angles.last().filter(|&&before| angle <= before) {
                 return Err(self.problem(
-                    format!("{} is {angle}, not above {before} before it", name()),
+                    format!("{} is {}, not above {before} before it", name(), shown(angle)),
                     "list angles in increasing order, and check the counts before them",
                 ));
             }

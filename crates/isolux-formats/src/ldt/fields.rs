@@ -1,6 +1,7 @@
 //! The lines of a file, one value each.
 
 use crate::Problem;
+use crate::counted::shown;
 use crate::plain_text::Line;
 use std::path::Path;
 
@@ -69,7 +70,7 @@ impl<'a> Fields<'a> {
         if holds(value) {
             return Ok(value);
         }
-        Err(self.problem(format!("{what} is {value}, but must be {must}"), "correct it"))
+        Err(self.problem(format!("{what} is {}, but must be {must}", shown(value)), "correct it"))
     }
 
     /// As [`Self::number`], for values that are often left empty: 0 then.
@@ -106,7 +107,7 @@ impl<'a> Fields<'a> {
             let angle = self.number(&name, &must, |a| (0.0..=most).contains(&a))?;
             if let Some(before) = angles.last().filter(|&&before| angle <= before) {
                 return Err(self.problem(
-                    format!("{name} is {angle}, not above {before} before it"),
+                    format!("{name} is {}, not above {before} before it", shown(angle)),
                     "list angles in increasing order, and check the counts in lines 4 and 6",
                 ));
             }

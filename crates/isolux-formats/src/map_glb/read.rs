@@ -3,7 +3,7 @@
 use super::arrays::{self, Arrays};
 use super::bytes::View;
 use super::container;
-use super::record::{Extras, Record, VERSIONS};
+use super::record::{self, Record, VERSIONS};
 use super::{Fault, lightmap_arrays, scene_arrays, value_arrays};
 use crate::{Loaded, Problem, Problems, source};
 use isolux::lightmap::Lightmap;
@@ -11,12 +11,14 @@ use isolux::map::{IlluminationMap, Provenance};
 use isolux::scene::{Scene, SceneParts, SceneProblem};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use serde_json::value::RawValue;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
 /// Longest file that can be a map: the container counts in 32 bits.
 const MOST_BYTES: u64 = u32::MAX as u64;
+const DAMAGED: &str = "does not match its checksum: the file was damaged or written anew";
 const REMEDY: &str = "compute the map again, or take an unchanged copy of it";
 const NOT_A_MAP_REMEDY: &str = "solve it first, or take the file that `solve` wrote";
 
@@ -53,10 +55,16 @@ fn file(path: &Path, with_texels: bool) -> Result<MapFile, Problems> {
     }
     let chunks = container::unpack(&bytes).map_err(|what| problem(Fault::new("", what)))?;
     check_version(path, chunks.json)?;
-    let document: Document<Extras<Record>> = serde_json::from_slice(chunks.json)
+    let document: Document<Extras<&RawValue>> = serde_json::from_slice(chunks.json)
         .map_err(|error| problem(Fault::new("JSON chunk", error.to_string())))?;
-    let Record { arrays: table, arrays_blake3, scene, provenance, lightmap, .. } =
-        document.extras.isolux;
+    let Extras { isolux: record, isolux_blake3 } = document.extras;
+    // Maps of before have no checksum of their record.
+    if isolux_blake3.is_some_and(|expected| expected != record::checksum(record)) {
+        return Err(problem(Fault::new("extras.isolux", DAMAGED)).into());
+    }
+    let record: Record = serde_json::from_str(record.get())
+        .map_err(|error| problem(Fault::new("extras.isolux", error.to_string())))?;
+    let Record { arrays: table, arrays_blake3, scene, provenance, lightmap, .. } = record;
     let arrays = Arrays { binary: chunks.binary, views: &document.buffer_views, table: &table };
     check_sum(&arrays, &arrays_blake3).map_err(problem)?;
     let parts = scene_arrays::read(scene, &arrays).map_err(problem)?;
@@ -72,8 +80,7 @@ fn check_sum(arrays: &Arrays<'_>, expected: &str) -> Result<(), Fault> {
     if found.as_deref() == Some(expected) {
         return Ok(());
     }
-    let what = "do not match their checksum: the file was damaged or written anew";
-    Err(Fault::new("extras.isolux.arrays", what))
+    Err(Fault::new("extras.isolux.arrays", DAMAGED))
 }
 
 fn assemble(path: &Path, parts: SceneParts) -> Result<Scene, Problems> {
@@ -145,6 +152,13 @@ struct Document<E> {
     #[serde(default)]
     buffer_views: Vec<View>,
     extras: E,
+}
+
+/// `extras` of a map.
+#[derive(Deserialize)]
+struct Extras<T> {
+    isolux: T,
+    isolux_blake3: Option<String>,
 }
 
 /// Which notes of ours a document has.

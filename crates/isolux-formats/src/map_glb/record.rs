@@ -11,6 +11,7 @@ use isolux::scene::{
 };
 use isolux::units::Rgb;
 use serde::{Deserialize, Serialize};
+use serde_json::value::{RawValue, to_raw_value};
 use std::ops::RangeInclusive;
 
 /// Versions of the format that are read; raised when older readers would misread what is written.
@@ -24,10 +25,26 @@ pub(super) fn version(materials: &[Material]) -> u32 {
     if materials.iter().any(is_coated) { 3 } else { 2 }
 }
 
-/// `extras` of the document.
-#[derive(Serialize, Deserialize)]
-pub(super) struct Extras<T> {
-    pub(super) isolux: T,
+/// `extras` of the document. The record is kept as its text, which the checksum is over.
+#[derive(Serialize)]
+pub(super) struct Sealed {
+    isolux: Box<RawValue>,
+    /// BLAKE3 over the text of the record.
+    isolux_blake3: String,
+}
+
+impl Sealed {
+    pub(super) fn new(record: &Record) -> Self {
+        let isolux = to_raw_value(&Declared::new(record));
+        let isolux = isolux.expect("plain structs with names for keys");
+        let isolux_blake3 = checksum(&isolux);
+        Self { isolux, isolux_blake3 }
+    }
+}
+
+/// The checksum of a record.
+pub(super) fn checksum(record: &RawValue) -> String {
+    blake3::hash(record.get().as_bytes()).to_hex().to_string()
 }
 
 /// Everything about a map that is not an array.
@@ -47,7 +64,7 @@ pub(super) struct Record {
 
 /// The record with what those need who read the file without its manual; not read back.
 #[derive(Serialize)]
-pub(super) struct Declared<'a> {
+struct Declared<'a> {
     quantity: &'static str,
     unit: &'static str,
     pi: &'static str,
@@ -60,7 +77,7 @@ pub(super) struct Declared<'a> {
 }
 
 impl<'a> Declared<'a> {
-    pub(super) fn new(record: &'a Record) -> Self {
+    fn new(record: &'a Record) -> Self {
         Self {
             quantity: "illuminance",
             unit: "lx",

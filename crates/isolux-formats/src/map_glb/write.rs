@@ -10,7 +10,7 @@ use super::document::{
     Scene as SceneRoots, Texture,
 };
 use super::looks::Looks;
-use super::record::{Declared, Extras, Record, version};
+use super::record::{Record, Sealed, version};
 use super::{MapTooLarge, Preview, images, lightmap_arrays, nodes, scene_arrays, value_arrays};
 use isolux::lightmap::Lightmap;
 use isolux::map::{IlluminationMap, Provenance};
@@ -36,8 +36,7 @@ pub fn write(
     if !lights.is_empty() {
         extensions_used.push("KHR_lights_punctual");
     }
-    let extras = Extras { isolux: Declared::new(&record) };
-    pack((objects, bytes), (extensions_used, lights), extras)
+    pack((objects, bytes), (extensions_used, lights), Sealed::new(&record))
 }
 
 /// A file of these objects, the last node of which is the root.

@@ -71,9 +71,14 @@ pub(super) fn parse(words: &[String]) -> Result<Xform, String> {
 
 fn count(option: &str, word: Option<&str>) -> Result<u64, String> {
     let count = word.and_then(|w| w.parse().ok());
-    count
-        .filter(|&n: &u64| n <= limits::COPIES as u64 && (n > 0 || option == "-i"))
-        .ok_or_else(|| format!("{option} {}", word.unwrap_or("without a count")))
+    count.filter(|&n: &u64| n <= limits::COPIES as u64 && (n > 0 || option == "-i")).ok_or_else(
+        || match word {
+            Some(word) => {
+                format!("{option} {word}: give a whole number of copies, up to {}", limits::COPIES)
+            }
+            None => format!("{option} without a count"),
+        },
+    )
 }
 
 fn map<'a>(option: &str, rest: &mut impl Iterator<Item = &'a str>) -> Result<Transform, String> {

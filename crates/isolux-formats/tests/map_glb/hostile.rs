@@ -11,11 +11,20 @@ static WHOLE: LazyLock<Vec<u8>> = LazyLock::new(|| {
     bytes(&scene, &map(&scene))
 });
 
-/// A container of changed JSON, with its checksum as the format describes it.
+/// A container of changed JSON, with its checksums as the format describes them.
 fn repack(mut json: Value, rest: &[u8]) -> Vec<u8> {
     if let Some(sum) = checksum(&json, rest.get(8..).unwrap_or_default()) {
         json["extras"]["isolux"]["arrays_blake3"] = json!(sum);
     }
+    let record = json["extras"]["isolux"].to_string();
+    if json["extras"].is_object() {
+        let sum = blake3::hash(record.as_bytes()).to_hex().to_string();
+        json["extras"]["isolux_blake3"] = json!(sum);
+    }
+    container(&json, rest)
+}
+
+fn container(json: &Value, rest: &[u8]) -> Vec<u8> {
     let mut text = json.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     let mut bytes = b"glTF".to_vec();
@@ -67,8 +76,8 @@ fn false_declarations_are_refused_with_their_place() {
         ("/arrays/nodes/bufferView", json!(4_000_000_000_u32), "checksum"),
         ("/arrays/nodes/type", json!("f32"), "arrays.nodes"),
         ("/arrays/direct_lx/type", json!("u32"), "arrays.direct_lx"),
-        ("/arrays/nodes/type", json!("i7"), "JSON chunk"),
-        ("/arrays/nodes", Value::Null, "JSON chunk"),
+        ("/arrays/nodes/type", json!("i7"), "extras.isolux: "),
+        ("/arrays/nodes", Value::Null, "extras.isolux: "),
         ("/scene/shapes/0/triangles", json!(u64::MAX), "floor"),
         ("/scene/shapes/0/triangles", json!(1), "leave triangles over"),
         ("/scene/shapes/0/has_normals", json!(true), "curtain"),
@@ -77,10 +86,10 @@ fn false_declarations_are_refused_with_their_place() {
         ("/scene/textures/0/width", json!(2), "textures[0]"),
         ("/scene/textures/0/bufferView", json!(1), "textures[0]"),
         ("/scene/luminaires/0/kind/point/distribution", json!(9), "luminaire 0"),
-        ("/scene/cameras/0/direction", json!([0, 0, 0]), "JSON chunk"),
+        ("/scene/cameras/0/direction", json!([0, 0, 0]), "extras.isolux: "),
         ("/scene/cameras/0/vertical_fov_rad", json!(-1), "from the corner"),
         ("/scene/materials/0/body/opaque/front/diffuse/colour", json!([2, 2, 2]), "plaster"),
-        ("/provenance/rays", Value::Null, "JSON chunk"),
+        ("/provenance/rays", Value::Null, "extras.isolux: "),
     ] {
         let (mut json, rest) = json_and_rest(&WHOLE);
         *json.pointer_mut(&format!("{isolux}{pointer}")).unwrap() = value.clone();
@@ -121,6 +130,27 @@ fn damage_without_a_new_checksum_is_noticed() {
     bytes[binary..].copy_from_slice(&damaged);
     assert!(sum.is_string());
     assert!(refused(&bytes).contains("checksum"));
+}
+
+/// One digit of a luminaire or of an error would change a report.
+#[test]
+fn no_digit_of_the_record_can_change_unnoticed() {
+    let (json, rest) = json_and_rest(&WHOLE);
+    let start = WHOLE.windows(10).position(|w| w == b"\"isolux\":{").unwrap();
+    let end = WHOLE.windows(16).position(|w| w == b"\"isolux_blake3\":").unwrap();
+    let digits = (start..end).filter(|&at| WHOLE[at].is_ascii_digit());
+    let mut count = 0;
+    for at in digits {
+        let mut changed = WHOLE.clone();
+        changed[at] = if changed[at] == b'7' { b'3' } else { b'7' };
+        refused(&changed);
+        count += 1;
+    }
+    assert!(count > 500, "{count}");
+    // Maps of before have no such checksum.
+    let mut before = json;
+    before["extras"].as_object_mut().unwrap().remove("isolux_blake3");
+    read_bytes(&container(&before, rest)).unwrap();
 }
 
 #[test]

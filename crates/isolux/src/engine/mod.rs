@@ -29,7 +29,7 @@ pub use method::{
     Coefficients, Daylight, IrradianceCache, PathTracer, RadiosityLimits, RadiositySettings,
     SampleKind, Sensitivity, Served,
 };
-pub use ray::{ProbePoint, Sensor, Sums};
+pub use ray::{ProbePoint, Sensor, StopFlag, Sums};
 pub use read::{
     Allowance, ExactSettings, IndirectReading, MapReader, PictureLight, Told, net, reference_lx,
 };

@@ -9,7 +9,7 @@ use crate::engine::light::{Emission, Lighting};
 use crate::engine::mesh::{Carriers, Fit, LeafError, Trust, TrustLevels, Waiting, trust};
 use crate::engine::occlusion::Barriers;
 use crate::engine::particle::{Aim, CausticNoise, ElementParts, LEAST_SHARE, flights};
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{Deadline, SurfacePoint};
 use crate::map::Standing;
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -23,6 +23,8 @@ pub(super) struct Plan<'s> {
     pub(super) scene: &'s Scene,
     pub(super) lighting: &'s Lighting<'s>,
     pub(super) result: PilotResult,
+    /// The end of the time for the preparation of increments.
+    pub(super) end: Deadline,
 }
 
 /// The result of a pilot: a plain value, from which increments continue on any machine.

@@ -3,13 +3,14 @@
 use crate::rooms::{
     clear_glass, glowing, inward_box, lamp, outward_box, painted, rectangle, scene,
 };
-use crate::runs::{METHODS, coarse, run};
+use crate::runs::{METHODS, assert_valid, coarse, run};
 use isolux::engine::{
-    Progress, SoFar, Solution, SolveRequest, Stage, Watch, solve, solve_looked_at,
+    Progress, SoFar, Solution, SolveRequest, Stage, StopFlag, Watch, solve, solve_looked_at,
 };
 use isolux::map::IlluminationMap;
 use isolux::scene::{Finish, Gloss, Material, Scene};
 use isolux::units::Rgb;
+use std::time::Duration;
 
 /// A room with some of everything: lamps, a glowing square, mirror, gloss, pane, solid glass.
 fn everything() -> Scene {
@@ -95,6 +96,40 @@ fn a_run_stopped_and_resumed_gives_the_same_bits() {
         // The run may have been stopped where its increments end, which is decided before one more is added.
         assert!(seen.starts_with(&[5, 6]), "{method:?}: {seen:?}");
         assert_eq!(written(&resumed.map), written(&whole.map), "{method:?}");
+    }
+}
+
+/// Whoever asks from outside does so within a step, at any moment.
+#[test]
+fn a_run_asked_to_stop_at_any_moment_is_a_map_and_goes_on_to_the_same_bits() {
+    let scene = everything();
+    for method in METHODS {
+        let request = coarse(method, 250);
+        let whole = run(&scene, &request, 12).expect("the scene has light");
+        for delay_ms in [0, 1, 3, 10, 30, 100, 300] {
+            let asked = SolveRequest { stop: StopFlag::default(), ..request.clone() };
+            let stop = asked.stop.clone();
+            if delay_ms == 0 {
+                stop.raise();
+            }
+            let asking = std::thread::spawn(move || {
+                std::thread::sleep(Duration::from_millis(delay_ms));
+                stop.raise();
+            });
+            let part = run(&scene, &asked, 12).expect("the scene has light");
+            asking.join().expect("it only waits");
+            let name = format!("{method:?} after {delay_ms} ms");
+            assert_valid(&name, &part.map);
+            assert!(part.map.provenance.increments >= 1, "{name}");
+            let is_told = part.map.provenance.accuracy.is_some();
+            assert!(!is_told || part.state.increments > 0, "{name}: nothing is known of a pilot");
+            let goes_on = &mut |p: &Progress| {
+                let is_enough = p.stage == Stage::Increments && p.increments >= 12;
+                if is_enough { Watch::Stop } else { Watch::Continue }
+            };
+            let resumed = solve(&scene, &request, Some(&part.state), goes_on).expect("the same");
+            assert_eq!(written(&resumed.map), written(&whole.map), "{name}");
+        }
     }
 }
 

@@ -11,7 +11,7 @@ mod surfaces;
 use super::MapTooLarge;
 use super::bytes::Bytes;
 use super::document::{Objects, Primitive};
-use super::record::{Declared, Origin};
+use super::record::{Origin, Sealed};
 use super::write::{add_node, add_textures, pack, record};
 use super::{Preview, nodes};
 use crate::lightmap::{Convention, LightmapFileError, Way};
@@ -24,9 +24,9 @@ use serde_json::Value;
 
 /// `extras` of the document.
 #[derive(Serialize)]
-struct Extras<'a> {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    isolux: Option<Declared<'a>>,
+struct Extras {
+    #[serde(flatten)]
+    map: Option<Sealed>,
     isolux_lightmap: Note,
 }
 
@@ -96,7 +96,7 @@ pub fn write_texels(file: &TexelFile<'_>) -> Result<Vec<u8>, LightmapFileError> 
     // Without lights: all of theirs is in the texels, and a consumer would add it once more.
     let extensions_used = materials::extensions(&objects.materials);
     let extras = Extras {
-        isolux: record.as_ref().map(Declared::new),
+        map: record.as_ref().map(Sealed::new),
         isolux_lightmap: note(file, pages.iter().map(|page| page.strength).collect()),
     };
     pack((objects, bytes), (extensions_used, Vec::new()), extras).map_err(too_large)

@@ -19,7 +19,7 @@ use super::gatherer::known_weights;
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::light::{Goal, Lighting};
-use crate::engine::ray::{Dice, SurfacePoint};
+use crate::engine::ray::{Deadline, Dice, SurfacePoint};
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
@@ -81,8 +81,12 @@ struct Lit {
 
 impl DirectResidual {
     /// The elements to sample if a mean error of `allowed_lx` may remain; `None` where rays do not read direct light
-    /// or its interpolation is good enough.
-    pub(crate) fn of(over: &Over<'_>, allowed_lx: f64, key: Key) -> Option<Self> {
+    /// or its interpolation is good enough. After the end of the time no residual is measured.
+    pub(crate) fn of(
+        over: &Over<'_>,
+        allowed_lx: f64,
+        (key, end): (Key, &Deadline),
+    ) -> Option<Self> {
         if !over.lighting.are_read_at_ends() || without("direct-residual") {
             return None;
         }
@@ -98,7 +102,7 @@ impl DirectResidual {
             }
             leaves.push(leaf);
         }
-        over.look(&mut leaves, key);
+        over.look(&mut leaves, key, end);
         let needs = |leaf: &Leaf| leaf.area_m2 * leaf.varies_lx;
         leaves.sort_by(|a, b| needs(b).total_cmp(&needs(a)));
         let mut left: f64 = leaves.iter().map(needs).sum();
@@ -128,13 +132,21 @@ impl DirectResidual {
         variance.sqrt()
     }
 
-    /// Direct light at vertices as rays are to read it, lx, from `samples` samples of each element.
-    pub(crate) fn read(&self, over: &Over<'_>, (samples, key): (u64, Key)) -> Kept {
+    /// Direct light at vertices as rays are to read it, lx, from `samples` samples of each element; `None` if the deadline
+    /// passes meanwhile.
+    pub(crate) fn read(
+        &self,
+        over: &Over<'_>,
+        (samples, key): (u64, Key),
+        deadline: &Deadline,
+    ) -> Option<Kept> {
         let one = |(number, leaf): (usize, &Leaf)| {
             let sequence = Sequence::new(key.with(number as u64));
-            (0..samples).map(|k| over.sample(leaf, &mut Dice::new(sequence, k as u32))).collect()
+            let sample = |k| over.sample(leaf, &mut Dice::new(sequence, k));
+            (!deadline.has_passed()).then(|| (0..samples as u32).map(sample).collect())
         };
-        let all: Vec<Vec<Lit>> = self.leaves.par_iter().enumerate().map(one).collect();
+        let all: Option<Vec<Vec<Lit>>> = self.leaves.par_iter().enumerate().map(one).collect();
+        let all = all?;
         let mut sums_lm = vec![Rgb::BLACK; over.direct.len()];
         let mut sampled_m2 = vec![0.0; over.direct.len()];
         let mut variances_lx2 = vec![0.0; over.direct.len()];
@@ -165,7 +177,7 @@ impl DirectResidual {
             // Rounding may make the share of other elements negative.
             own * (1.0 - sampled_m2[v] / hat_m2).max(0.0) + sums_lm[v] / hat_m2
         };
-        Kept { values: (0..over.direct.len()).map(read).collect(), variances_lx2 }
+        Some(Kept { values: (0..over.direct.len()).map(read).collect(), variances_lx2 })
     }
 }
 
@@ -215,7 +227,7 @@ impl Over<'_> {
     }
 
     /// Measures the residual at some places, since vertices may agree and light still vary between them.
-    fn look(&self, leaves: &mut [Leaf], key: Key) {
+    fn look(&self, leaves: &mut [Leaf], key: Key, end: &Deadline) {
         let sums: Vec<f64> = leaves
             .iter()
             .scan(0.0, |sum, leaf| {
@@ -226,6 +238,9 @@ impl Over<'_> {
         let Some(&all_m2) = sums.last() else { return };
         let shift = key.with(u64::MAX).uniform();
         let one = |k: usize| {
+            if end.has_passed() {
+                return None;
+            }
             let within = (k as f64 + shift) / RESIDUAL_PLACES as f64 * all_m2;
             let number = sums.partition_point(|&sum| sum <= within).min(leaves.len() - 1);
             let leaf = &leaves[number];

@@ -10,7 +10,7 @@ use super::gatherer::Gatherer;
 use crate::elements::{Elements, table_in_order};
 use crate::engine::light::Lighting;
 use crate::engine::occlusion::{Footprints, nearby};
-use crate::engine::ray::{Dice, PathEnd, SurfacePoint, follow};
+use crate::engine::ray::{Deadline, Dice, PathEnd, SurfacePoint, follow};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
 use crate::units::Rgb;
@@ -39,6 +39,8 @@ pub(crate) struct Sight<'a> {
     /// Vertices that something stands on, which are seen from both of its sides.
     pub(crate) footprints: &'a Footprints,
     pub(crate) key: Key,
+    /// The end of the time. Vertices whose turn comes after it count as open, unless they see nothing that is.
+    pub(crate) end: &'a Deadline,
 }
 
 /// An element: the number by which its places are drawn, and the positions of its corners.
@@ -99,6 +101,7 @@ impl Sight<'_> {
         self.open_reached(first, &mut lit);
         let look = |(k, gatherer): (usize, &Gatherer)| match lit[first + k] {
             true => Seen::Light,
+            false if self.end.has_passed() => Seen::Light,
             false => self.look(gatherer, (first + k) as u64, &lit),
         };
         let seen: Vec<Seen<Box<[Met]>>> =
@@ -113,7 +116,8 @@ impl Sight<'_> {
         // Each round adds one reflection; it opens some vertex or is the last.
         loop {
             let is_open = |(_, places): &(usize, Box<[Met]>)| {
-                places.iter().any(|met| self.sees_open(&met.place(self.scene), known))
+                !self.end.has_passed()
+                    && places.iter().any(|met| self.sees_open(&met.place(self.scene), known))
             };
             let open: Vec<bool> = waiting.par_iter().map(is_open).collect();
             if !open.contains(&true) {

@@ -2,7 +2,7 @@
 //! both.
 
 use crate::engine::mesh::{Fit, Waiting, corrected};
-use crate::engine::ray::{Anderson, UNITS_OF_REFERENCE};
+use crate::engine::ray::{Anderson, Deadline, UNITS_OF_REFERENCE};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
@@ -130,15 +130,15 @@ impl Operator {
 
     /// The fixed point `E = source + A (E + given)` over the first `given.len()` receivers, followed by one
     /// application for all receivers. The iteration starts from `guess`. It ends when a sweep changes nothing beyond
-    /// `tolerance`, relative to the root mean square.
+    /// `tolerance`, relative to the root mean square, or at the end of the time.
     pub(crate) fn solve(
         &self,
         guess: &[Rgb],
         given: &[Rgb],
         waiting: &Waiting,
-        tolerance: f64,
+        (tolerance, end): (f64, &Deadline),
     ) -> Vec<Rgb> {
-        self.solve_or_give_up(guess, given, (waiting, None), tolerance).0
+        self.solve_or_give_up(guess, given, (waiting, None), (tolerance, end)).0
     }
 
     /// The fixed point as from [`Operator::solve`], and the root mean square change of the last sweep, lx. Vertices
@@ -154,7 +154,7 @@ impl Operator {
         guess: &[Rgb],
         given: &[Rgb],
         (waiting, fit): (&Waiting, Option<&Fit>),
-        tolerance: f64,
+        (tolerance, end): (f64, &Deadline),
     ) -> (Vec<Rgb>, f64) {
         let with_given = |mut light: Vec<Rgb>| -> Vec<Rgb> {
             light.iter_mut().zip(given).for_each(|(e, &g)| *e += g);
@@ -169,12 +169,12 @@ impl Operator {
         let lit = self.lit(given);
         light.iter_mut().zip(&lit).filter(|&(_, lit)| !lit).for_each(|(e, _)| *e = Rgb::BLACK);
         if let Some(rough) = Rough::of(self, guess.len(), waiting) {
-            match self.settle_roughly(&rough, (light, waiting), read, tolerance) {
+            match self.settle_roughly(&rough, (light, waiting), read, (tolerance, end)) {
                 Ok(settled) => return settled,
                 Err(nearer) => light = nearer,
             }
         }
-        let light = match self.settle(light, (&read, &fill), (FREE_SWEEPS, tolerance)) {
+        let light = match self.settle(light, (&read, &fill), (FREE_SWEEPS, tolerance), end) {
             Ok(settled) => return settled,
             Err(nearer) => nearer,
         };
@@ -184,7 +184,7 @@ impl Operator {
             with_given(fit.as_ref().map_or_else(|| light.to_vec(), |fit| fit.apply(light)))
         };
         let fill = |light: &mut [Rgb]| waiting.fill(light);
-        match self.settle(light, (&read, &fill), (MAX_SWEEPS, tolerance)) {
+        match self.settle(light, (&read, &fill), (MAX_SWEEPS, tolerance), end) {
             Ok(settled) => settled,
             Err(light) => {
                 let next = self.swept(&light, (&read, &fill));
@@ -223,12 +223,13 @@ impl Operator {
         mut light: Vec<Rgb>,
         rules: Rules<'_>,
         (most, tolerance): (usize, f64),
+        end: &Deadline,
     ) -> Result<(Vec<Rgb>, f64), Vec<Rgb>> {
         let mut mixing = Anderson::new();
         for _ in 0..most {
             let mut next = self.swept(&light, rules);
             let settling = Settling::of(&next, &light);
-            if settling.is_within(tolerance) {
+            if settling.is_within(tolerance) || end.has_passed() {
                 return Ok((next, settling.rms()));
             }
             next.truncate(light.len());
@@ -246,7 +247,7 @@ impl Operator {
         rough: &Rough,
         (mut light, waiting): (Vec<Rgb>, &Waiting),
         with_given: impl Fn(&[Rgb]) -> Vec<Rgb>,
-        tolerance: f64,
+        (tolerance, end): (f64, &Deadline),
     ) -> Result<(Vec<Rgb>, f64), Vec<Rgb>> {
         let carried = |light: &[Rgb]| -> Vec<Rgb> {
             rough.carriers.iter().map(|&v| light[v as usize]).collect()
@@ -256,7 +257,7 @@ impl Operator {
             let mut next = self.apply(&with_given(&light));
             let [now, then] = [carried(&next), carried(&light)];
             let settling = Settling::of(&now, &then);
-            if settling.is_within(tolerance) {
+            if settling.is_within(tolerance) || end.has_passed() {
                 waiting.fill(&mut next);
                 return Ok((next, settling.rms()));
             }

@@ -11,7 +11,7 @@ use super::{bright_surfaces, control_variate};
 use crate::elements::Place;
 use crate::engine::light::{NearbyLuminaires, Shadows};
 use crate::engine::occlusion::nearby;
-use crate::engine::ray::{Deadline, Dice, PathEnd, SurfacePoint, follow_on};
+use crate::engine::ray::{Deadline, Dice, NEVER, PathEnd, SurfacePoint, follow_on};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Finish;
 use crate::units::Rgb;
@@ -163,7 +163,7 @@ impl Gathering<'_> {
         key_of: impl Fn(usize) -> Key + Sync,
     ) -> Operator {
         let of = (gatherers.len(), |k: usize| gatherers[k]);
-        let whole = self.operator_until(Deadline::NEVER, of, key_of);
+        let whole = self.operator_until(&NEVER, of, key_of);
         whole.expect("without a deadline nothing is given up")
     }
 
@@ -171,7 +171,7 @@ impl Gathering<'_> {
     /// deadline passes meanwhile.
     pub(crate) fn operator_until(
         &self,
-        deadline: Deadline,
+        deadline: &Deadline,
         (count, gatherer): (usize, impl Fn(usize) -> Gatherer + Sync),
         key_of: impl Fn(usize) -> Key + Sync,
     ) -> Option<Operator> {

@@ -15,7 +15,7 @@ use crate::engine::light::{Goal, Measured};
 use crate::engine::mesh::{LeafError, Trust};
 use crate::engine::occlusion::nearby;
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, Dice, Noise, Sample, Sums, SurfacePoint};
+use crate::engine::ray::{Accumulator, Deadline, Dice, Noise, Sample, Sums, SurfacePoint};
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -83,8 +83,14 @@ pub(crate) struct DirectThere {
 
 impl DirectThere {
     /// Direct light evaluated with other random numbers, lx.
-    pub(crate) fn again(&self, plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
-        direct(plan, checks, self.accuracy, key).lx
+    pub(crate) fn again(
+        &self,
+        plan: &Plan,
+        checks: &[Check],
+        key: Key,
+        deadline: &Deadline,
+    ) -> Vec<Rgb> {
+        direct(plan, checks, self.accuracy, (key, deadline)).lx
     }
 }
 
@@ -261,13 +267,21 @@ impl Check {
 }
 
 /// Direct light at the check points, as readings of a map of this accuracy evaluate it. `key` matters only
-/// where it has noise.
-pub(crate) fn direct(plan: &Plan, checks: &[Check], accuracy: f64, key: Key) -> DirectThere {
+/// where it has noise. After the deadline it is left out.
+pub(crate) fn direct(
+    plan: &Plan,
+    checks: &[Check],
+    accuracy: f64,
+    (key, deadline): (Key, &Deadline),
+) -> DirectThere {
     let sequence = |k: usize| Sequence::new(key.with(k as u64));
     let reading = Goal::reading(accuracy);
     // The error of the scene counts, so the goal is a share of its reference light even at dark places.
     let goal = Goal { lx: reading.share * plan.light.reference_lx, ..reading };
     let one = |(k, check): (usize, &Check)| {
+        if deadline.has_passed() {
+            return Measured { lx: Rgb::BLACK, variance: 0.0 };
+        }
         plan.lighting.measured(&check.gatherer.surface, goal, sequence(k))
     };
     let measured: Vec<Measured> =

@@ -4,7 +4,7 @@
 use super::tally::Tally;
 use crate::engine::particle::Flights;
 use crate::engine::plan::Plan;
-use crate::engine::ray::Effort;
+use crate::engine::ray::{Deadline, Effort};
 use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -20,8 +20,8 @@ pub(crate) struct Caustics {
     pub(crate) effort: Effort,
 }
 
-/// Caustics from `count` particles.
-pub(crate) fn deposit(plan: &Plan, count: u32, key: Key) -> Caustics {
+/// Caustics from `count` particles; `None` if the deadline passes meanwhile.
+pub(crate) fn deposit(plan: &Plan, count: u32, key: Key, deadline: &Deadline) -> Option<Caustics> {
     let nothing = |effort: Effort| Caustics {
         light: vec![Rgb::BLACK; plan.mesh.indirect_vertices],
         means: vec![Rgb::BLACK; plan.mesh.indirect_vertices],
@@ -31,22 +31,26 @@ pub(crate) fn deposit(plan: &Plan, count: u32, key: Key) -> Caustics {
     let Some(flights) =
         Flights::new((plan.scene, plan.lighting), plan.tried.aim.as_ref(), count, key)
     else {
-        return nothing(Effort::default());
+        return Some(nothing(Effort::default()));
     };
     let flux_lm = flights.flux_lm();
     if !plan.lighting.leaves_caustics() {
         let given_up_lx = plan.lighting.left_out() * flux_lm / plan.area_m2();
-        return nothing(Effort { rays: 0, given_up_lx });
+        return Some(nothing(Effort { rays: 0, given_up_lx }));
     }
     let tally = Tally::new(plan, flux_lm, 1);
     let one = |index: u32| {
+        if deadline.has_passed() {
+            return None;
+        }
         let (rays, given_up) = flights.fly(index, |at, flux_lm| tally.add(0, at, flux_lm));
         given_up.into_iter().for_each(|flux_lm| tally.give_up(flux_lm));
-        rays
+        Some(rays)
     };
-    let rays = (0..count).into_par_iter().map(one).sum();
+    let rays = (0..count).into_par_iter().map(one).sum::<Option<u64>>()?;
     let light = tally.illuminance(0);
     let lacking = tally.lacking(|vertex| light[vertex]);
     let means = tally.means(0);
-    Caustics { light, means, lacking, effort: Effort { rays, given_up_lx: tally.given_up_lx() } }
+    let effort = Effort { rays, given_up_lx: tally.given_up_lx() };
+    Some(Caustics { light, means, lacking, effort })
 }

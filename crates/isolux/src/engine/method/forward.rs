@@ -10,7 +10,7 @@ use crate::engine::judge::BELIEVED_INCREMENTS;
 use crate::engine::light::{Emission, Lighting, Particle, scatterings};
 use crate::engine::particle::element_parts;
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, Effort, Sample};
+use crate::engine::ray::{Accumulator, Deadline, Effort, Sample};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Body;
 use rayon::prelude::*;
@@ -48,22 +48,24 @@ impl<'p, 's> Forward<'p, 's> {
         Self { plan, emission, particles, of_caustics, scatterings, key }
     }
 
-    /// Adds increment `index`, and the caustics that its map lacks in parts of elements.
+    /// Adds increment `index`, and the caustics that its map lacks in parts of elements; adds nothing and returns `None` if
+    /// the deadline passes meanwhile.
     pub(crate) fn increment(
         &self,
         index: u64,
         receivers: &mut Accumulator,
         lacking: &mut Accumulator,
-    ) -> Effort {
+        deadline: &Deadline,
+    ) -> Option<Effort> {
         let tally = Tally::new(self.plan, self.emission.flux_lm(), 2);
         let key = self.key.with(index);
         let sequence = Sequence::new(key);
-        let of_caustics = caustics::deposit(self.plan, self.of_caustics, key.with(0));
-        lacking.add(element_parts::samples(&of_caustics.lacking));
-        let rays: u64 = (0..self.particles)
+        let of_caustics = caustics::deposit(self.plan, self.of_caustics, key.with(0), deadline)?;
+        let rays = (0..self.particles)
             .into_par_iter()
-            .map(|particle| self.fly(&tally, sequence, particle))
-            .sum();
+            .map(|particle| (!deadline.has_passed()).then(|| self.fly(&tally, sequence, particle)))
+            .sum::<Option<u64>>()?;
+        lacking.add(element_parts::samples(&of_caustics.lacking));
         let [direct, indirect] =
             [DIRECT, INDIRECT].map(|part| self.plan.prolongate(&tally.illuminance(part)));
         let caustic = self.plan.prolongate(&of_caustics.light);
@@ -74,7 +76,7 @@ impl<'p, 's> Forward<'p, 's> {
             passed_on: 0.0,
         }));
         // Flux given up on the way to caustics is counted by these particles already.
-        Effort { rays: rays + of_caustics.effort.rays, given_up_lx: tally.given_up_lx() }
+        Some(Effort { rays: rays + of_caustics.effort.rays, given_up_lx: tally.given_up_lx() })
     }
 
     fn fly(&self, tally: &Tally, sequence: Sequence, index: u32) -> u64 {

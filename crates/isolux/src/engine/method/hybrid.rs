@@ -140,14 +140,17 @@ impl<'p, 's> Hybrid<'p, 's> {
         } else {
             own
         };
-        let check_direct = check_points::direct(plan, checks, goal, key.with(0));
+        let check_direct = check_points::direct(plan, checks, goal, (key.with(0), &plan.end));
         let rays_for_bare = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
         let for_bare = plan.mesh.gathering_for_bare.iter();
         let for_bare = for_bare.map(|&v| plan.mesh.gatherers[v as usize].with_rays(rays_for_bare));
         let fresh_rows = checks.iter().map(|check| check.gatherer).chain(for_bare).collect();
         let over = plan.over(&plan.light.direct);
-        let kept =
-            DirectResidual::of(&over, goal * plan.light.reference_lx, key.with(u64::MAX - 2));
+        let kept = DirectResidual::of(
+            &over,
+            goal * plan.light.reference_lx,
+            (key.with(u64::MAX - 2), &plan.end),
+        );
         let ahead = VecDeque::new();
         let readers = READERS.min((most / OF_READERS).max(1));
         let corners = |error: &LeafError| plan.mesh.subdivision.node(error.node).0.vertices;
@@ -212,7 +215,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         &mut self,
         index: u64,
         checks: &[Check],
-        deadline: Deadline,
+        deadline: &Deadline,
     ) -> Option<Increment> {
         if self.reader.is_none() {
             let with = (self.readers, self.key.with(u64::MAX));
@@ -243,34 +246,41 @@ impl<'p, 's> Hybrid<'p, 's> {
         self.ahead.len() as u64
     }
 
-    fn made(&self, index: u64, checks: &[Check], deadline: Deadline) -> Option<Increment> {
+    fn made(&self, index: u64, checks: &[Check], deadline: &Deadline) -> Option<Increment> {
         let plan = self.plan;
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
             direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
         let Caustics { light: caustic, means: reflected_on, lacking, effort: particles } =
-            caustics::deposit(plan, self.particles, key.with(1));
+            caustics::deposit(plan, self.particles, key.with(1), deadline)?;
         let kept = self.kept.as_ref();
-        let kept = kept.map(|kept| kept.read(&plan.over(&direct), (1, key.with(6))));
+        let kept = match kept {
+            Some(kept) => Some(kept.read(&plan.over(&direct), (1, key.with(6)), deadline)?),
+            None => None,
+        };
         let at_ends = kept.as_ref().map_or(&direct, |kept| &kept.values);
         let gathering = Gathering::of(plan, at_ends);
         let rows = (self.rays.len(), |vertex: usize| row(plan, vertex, self.rays[vertex]));
         let operator =
             gathering.operator_until(deadline, rows, |row| key.with(2).with(row as u64))?;
+        let absorbed = (1.0 - plan.light.mean_reflectance).max(LEAST_ABSORBED);
+        let tolerance = UNSETTLED * self.goal.min(COARSEST) * absorbed;
         let (gathered, unsettled_lx) = operator.solve_or_give_up(
             &plan.light.guess,
             &reflected_on,
             (&plan.mesh.waiting, Some(&plan.mesh.fit)),
-            UNSETTLED
-                * self.goal.min(COARSEST)
-                * (1.0 - plan.light.mean_reflectance).max(LEAST_ABSORBED),
+            (tolerance, deadline),
         );
+        if deadline.has_passed() {
+            return None;
+        }
         let gathered = plan.mesh.fit.apply(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&reflected_on).map(|(&e, &c)| e + c).collect();
         let passed_on = self.passed_on(&light);
         // Check points gather as readers do.
         let gathering = Gathering { regathers: true, ..gathering };
-        let fresh = gathering.operator(&self.fresh_rows, |row| key.with(3).with(row as u64));
+        let rows = (self.fresh_rows.len(), |k: usize| self.fresh_rows[k]);
+        let fresh = gathering.operator_until(deadline, rows, |row| key.with(3).with(row as u64))?;
         let fresh_light = fresh.apply(&light);
         let (fresh_light, for_bare) = fresh_light.split_at(checks.len());
         let indirect = plan.prolongate_beside(&gathered, for_bare);
@@ -387,7 +397,7 @@ fn reader(
     plan: &Plan,
     own: &[u32],
     (rays, key): (u32, Key),
-    deadline: Deadline,
+    deadline: &Deadline,
 ) -> Option<Operator> {
     let dark = vec![Rgb::BLACK; plan.mesh.elements.vertices().len()];
     let direct = DirectAtEnds::Read { values: &dark, level: u32::MAX };
@@ -402,7 +412,7 @@ pub(crate) fn direct_light(
     plan: &Plan,
     (check_direct, checks): (&DirectThere, &[Check]),
     key: Key,
-    deadline: Deadline,
+    deadline: &Deadline,
 ) -> Option<(Vec<Rgb>, Vec<Rgb>)> {
     if plan.lighting.is_measured_once() {
         return Some((plan.light.direct.clone(), check_direct.lx.clone()));
@@ -414,5 +424,7 @@ pub(crate) fn direct_light(
     };
     let vertices: Option<Vec<Rgb>> =
         plan.mesh.gatherers.par_iter().enumerate().map(vertex).collect();
-    Some((vertices?, check_direct.again(plan, checks, key.with(u64::MAX))))
+    let vertices = vertices?;
+    let at_checks = check_direct.again(plan, checks, key.with(u64::MAX), deadline);
+    (!deadline.has_passed()).then_some((vertices, at_checks))
 }

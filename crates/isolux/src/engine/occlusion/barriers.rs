@@ -9,7 +9,7 @@ use super::footprints::{END_EDGE_SHARE, LOW, stands_on};
 use super::nearby::NEAR;
 use crate::ablation::without;
 use crate::elements::{Elements, FewNumbers, Origin, Subdivision, set_in_order, table_in_order};
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{Deadline, NEVER, SurfacePoint};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point, Ray};
@@ -59,12 +59,12 @@ impl Barrier {
 
 impl Barriers {
     /// The barriers across those of these nodes whose light is uneven; a test of all would take too long. The
-    /// vertices of the nodes are numbered below `first`.
+    /// vertices of the nodes are numbered below `first`. Nodes whose turn comes after the end of the time count as free.
     pub(crate) fn of(
         scene: &Scene,
         elements: &Elements,
         (nodes, light): (impl Iterator<Item = Side>, &[Rgb]),
-        first: usize,
+        (first, end): (usize, &Deadline),
     ) -> Self {
         if without("barriers") {
             return Self::default();
@@ -77,7 +77,8 @@ impl Barriers {
         };
         let nodes: Vec<Side> = nodes.filter(is_uneven).collect();
         let look = Look { scene, elements };
-        let found = nodes.par_iter().filter_map(|side| Some((side, look.cut(side)?)));
+        let cut = |side| (!end.has_passed()).then(|| look.cut(side)).flatten();
+        let found = nodes.par_iter().filter_map(|side| Some((side, cut(side)?)));
         let found: Vec<(&Side, Barrier)> = found.collect();
         let mut cuts = Self::default();
         for (side, cut) in found {
@@ -105,7 +106,7 @@ impl Barriers {
 
     /// The barriers across the elements of a map.
     pub(crate) fn of_map(scene: &Scene, elements: &Elements, light: &[Rgb]) -> Self {
-        Self::of(scene, elements, (Side::of_all(elements), light), usize::MAX)
+        Self::of(scene, elements, (Side::of_all(elements), light), (usize::MAX, &NEVER))
     }
 
     /// The barrier across a node, if there is one.

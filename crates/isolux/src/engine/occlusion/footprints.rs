@@ -6,7 +6,7 @@
 
 use super::nearby::NEAR;
 use crate::elements::{FewNumbers, Subdivision};
-use crate::engine::ray::{COPLANAR_COS, SurfacePoint};
+use crate::engine::ray::{COPLANAR_COS, Deadline, SurfacePoint};
 use crate::scene::Scene;
 use isolux_geometry::{Normal, Point, Ray};
 use rayon::prelude::*;
@@ -38,12 +38,14 @@ struct Place {
 }
 
 impl Footprints {
-    /// Tests the new vertices in elements that something stands close to.
+    /// Tests the new vertices in elements that something stands close to. Those whose turn comes after the end of the time
+    /// count as free of objects.
     pub(crate) fn look(
         &mut self,
         scene: &Scene,
         subdivision: &Subdivision,
         is_beset: impl Fn(u32) -> bool + Sync,
+        end: &Deadline,
     ) {
         let first = self.0.len();
         self.0.resize(subdivision.vertex_count(), false);
@@ -58,6 +60,9 @@ impl Footprints {
         let leaves: Vec<u32> = subdivision.leaves().filter(|&node| is_beset(node)).collect();
         let within: Vec<[Place; 2]> = leaves.into_par_iter().flat_map_iter(of_leaf).collect();
         let is_parted = |a: &Place, b: &Place| {
+            if end.has_passed() {
+                return false;
+            }
             let (triangle, back) = a.side;
             let above = SurfacePoint::new(scene, triangle, back, 1.0 / 3.0, 1.0 / 3.0);
             is_parted(scene, [a.at, b.at], &above)

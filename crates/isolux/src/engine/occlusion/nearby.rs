@@ -1,7 +1,7 @@
 //! Objects near a place, found by short rays.
 
 use crate::elements::{Elements, Subdivision};
-use crate::engine::ray::{ShortRays, SurfacePoint};
+use crate::engine::ray::{Deadline, ShortRays, SurfacePoint};
 use crate::map::Standing;
 use crate::sampling::Key;
 use crate::scene::Scene;
@@ -98,19 +98,20 @@ struct Feeling {
 
 impl ClosedIn {
     /// The standings of vertices on the current elements. Vertices that were open among longer elements stay open.
-    /// Rays test only places and edge lengths that were not tested before.
+    /// Rays test only places and edge lengths that were not tested before. Vertices whose turn comes after the end of the
+    /// time count as open.
     pub(crate) fn standings(
         &mut self,
-        scene: &Scene,
-        subdivision: &Subdivision,
+        (scene, subdivision): (&Scene, &Subdivision),
         before: &[Option<Standing>],
         surface: impl Fn(usize) -> SurfacePoint + Sync,
+        end: &Deadline,
     ) -> Vec<Option<Standing>> {
         let edges_m = subdivision.longest_edges_m();
         let on_border = subdivision.border_vertices();
         self.0.resize_with(before.len(), || None);
         let one = |(k, felt): (usize, &mut Option<Feeling>)| {
-            if before[k] == Some(Standing::Open) {
+            if before[k] == Some(Standing::Open) || end.has_passed() {
                 return Some(Standing::Open);
             }
             let (at, edge_m) = (surface(k), edges_m[k]);

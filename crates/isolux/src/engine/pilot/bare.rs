@@ -80,7 +80,7 @@ impl Pilot<'_> {
         let gathering = self.gathering(elements, self.indirect.solved_nodes, &self.near.standings);
         let gathering = Gathering { regathers: true, ..gathering };
         let key = self.key.with(2);
-        let operator = gathering.operator(&rows, |_| key);
+        let operator = self.operator(&gathering, &rows, key);
         let gathered = operator.apply(&self.indirect.lx);
         for ((k, row), light) in new.zip(&rows).zip(gathered) {
             let ends = elements.vertices()[k].parents.expect("made by bisection");

@@ -55,6 +55,10 @@ impl Pilot<'_> {
         let costs = &mut self.costs;
         let cost = if is_for_it_alone { &mut costs.in_shadows } else { &mut costs.direct };
         cost.add(started.elapsed(), measured.len() as f64);
+        if self.direct.in_time.has_passed() {
+            self.direct.is_hurried = true;
+            self.is_whole = false;
+        }
         self.direct.lx.extend(measured.iter().map(|m| m.lx));
         self.direct.variance.extend(measured.iter().map(|m| m.variance));
         self.direct
@@ -73,7 +77,8 @@ impl Pilot<'_> {
         }
     }
 
-    /// Direct light at some vertices. If it has noise, that of each vertex is independent and as large as allowed.
+    /// Direct light at some vertices. If it has noise, that of each vertex is independent and as large as allowed. Vertices
+    /// whose turn comes too late get the fewest shadow rays.
     fn measured(
         &self,
         elements: &Elements,
@@ -85,6 +90,11 @@ impl Pilot<'_> {
         let first = self.mesh.for_indirect_light.as_ref().map_or(usize::MAX, |(count, _)| *count);
         let alike = Sequence::new(self.key.with(1));
         let measured = |k: usize| {
+            if self.direct.in_time.has_passed() {
+                let sequence = Sequence::new(self.key.with(5).with(k as u64));
+                let looks = if self.end.has_passed() { 1 } else { 2 };
+                return self.lighting.measured_in_a_hurry(&gatherers[k].surface, looks, sequence);
+            }
             let (goal, sequence) = match self.direct.noise_lx {
                 Some(lx) => {
                     let relief = relief(vertices[k].area_m2 / mean_m2);

@@ -57,7 +57,7 @@ impl<'s> Pilot<'s> {
             subdivision: coarse,
         };
         let errors = PlannedErrors { of_elements: look.errors, ..errors };
-        self.plan(mesh, errors, look.reference_lx)
+        self.plan(mesh, errors, look.reference_lx, request)
     }
 
     /// Refines elements for caustics, if there are any, and returns the errors that are left.
@@ -75,7 +75,13 @@ impl<'s> Pilot<'s> {
     }
 
     /// The plan over a mesh, with the known light and noise.
-    fn plan(self, mesh: PlannedMesh, errors: PlannedErrors, reference_lx: f64) -> Plan<'s> {
+    fn plan(
+        self,
+        mesh: PlannedMesh,
+        errors: PlannedErrors,
+        reference_lx: f64,
+        request: &PilotRequest,
+    ) -> Plan<'s> {
         let light = PlannedLight {
             direct: self.direct.lx,
             direct_variance: self.direct.variance,
@@ -96,12 +102,12 @@ impl<'s> Pilot<'s> {
             errors: Arc::new(errors),
             tried: Arc::new(tried),
             unlit: Arc::new(self.near.unlit),
-            is_whole: self.is_whole,
+            is_whole: self.is_whole && !self.end.has_passed(),
             is_finest: self.mesh.is_full
                 && self.direct.excess.is_some_and(|(_, excess)| excess > 1.0),
             rays: self.traced,
         };
-        Plan { scene: self.scene, lighting: self.lighting, result }
+        Plan { scene: self.scene, lighting: self.lighting, result, end: request.end.clone() }
     }
 
     /// Fixes the elements for indirect light and returns them.
@@ -140,11 +146,15 @@ impl<'s> Pilot<'s> {
         if self.has_time(look, request, FINE_EXCESS, go_on) {
             self.measure_moved(&look.elements, &gatherers);
         }
-        if self.direct.noise_lx.is_none() {
+        // Increments measure direct light again, unless it is measured once.
+        let is_told = self.direct.is_hurried && self.lighting.is_measured_once();
+        if self.direct.noise_lx.is_none() && !is_told {
             self.direct.variance.fill(0.0);
         }
         self.direct.is_measured = true;
-        go_on(&self.round(request, Some(look), FINE_EXCESS));
+        if !self.end.has_passed() {
+            go_on(&self.round(request, Some(look), FINE_EXCESS));
+        }
         self.complete_standings(&gatherers);
         gatherers
     }
@@ -152,7 +162,8 @@ impl<'s> Pilot<'s> {
     /// The elements with an object across them.
     fn cuts(&self, coarse: &Subdivision, elements: &Elements) -> Barriers {
         let nodes = coarse.leaves().map(|node| Side::of(coarse, node));
-        Barriers::of(self.scene, elements, (nodes, &self.indirect.lx), coarse.vertex_count())
+        let (first, light) = (coarse.vertex_count(), &self.indirect.lx);
+        Barriers::of(self.scene, elements, (nodes, light), (first, &self.end))
     }
 
     fn fit(&self, coarse: &Subdivision, open: &[bool], cuts: &Barriers) -> Fit {

@@ -42,7 +42,7 @@ impl Pilot<'_> {
         let key = self.key.with(2);
         let mut started = Instant::now();
         let head = if is_first { rows.len() / FIRST_PART_DIVISOR } else { 0 };
-        let mut operator = gathering.operator(&rows[..head], |_| key);
+        let mut operator = self.operator(&gathering, &rows[..head], key);
         if is_first {
             // The time of a portion gives an early prediction. With a control variate, rays take little of the time.
             self.costs.rays.add(started.elapsed(), operator.rays as f64);
@@ -54,15 +54,16 @@ impl Pilot<'_> {
         let tail = &rows[head..];
         let tail = if is_first { self.affordable(tail, request) } else { tail.to_vec() };
         let gathering = self.gathering(elements, level, &self.near.standings);
-        let tail = gathering.operator(&tail, |_| key);
+        let tail = self.operator(&gathering, &tail, key);
         let rays = tail.rays as f64;
         operator.append(tail);
         self.traced += operator.rays;
         self.indirect.lx.resize(gatherers.len(), Rgb::BLACK);
         if is_first {
             let black = vec![Rgb::BLACK; gatherers.len()];
+            let waiting = self.mesh.carriers.waiting();
             self.indirect.lx =
-                operator.solve(&black, &black, &self.mesh.carriers.waiting(), PILOT_TOLERANCE);
+                operator.solve(&black, &black, &waiting, (PILOT_TOLERANCE, &self.end));
             if !self.near.known.contains(&true) {
                 // No vertex has light: places that are not closed in count as dark, not as hidden.
                 self.near.known = operator.open();

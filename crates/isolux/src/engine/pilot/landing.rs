@@ -28,7 +28,7 @@ impl Pilot<'_> {
         (elements, gatherers): (&mut Elements, &mut Vec<Gatherer>),
         request: &PilotRequest,
     ) -> bool {
-        if without("landing-check") {
+        if without("landing-check") || self.end.has_passed() {
             return false;
         }
         let Some(emission) = Emission::new(self.scene) else { return false };
@@ -44,7 +44,7 @@ impl Pilot<'_> {
         for _ in 0..MOST_ROUNDS {
             let wrong = self.wrongly_told(elements, (&landed, each_lm(many)));
             let room = |pilot: &Self| pilot.mesh.subdivision.vertex_count() < request.max_vertices;
-            if wrong.is_empty() || !room(self) {
+            if wrong.is_empty() || !room(self) || self.end.has_passed() {
                 break;
             }
             for node in wrong {

@@ -22,7 +22,7 @@ const DIM_ERROR_GOALS: f64 = 3.0;
 /// to 0.55 in empty rooms, 0.8 and more in furnished ones.
 const SMOOTH_LEFT_SHARE: f64 = 0.7;
 /// The request to the pilot: accuracies and limits.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct PilotRequest {
     /// The relative accuracy that the elements are made for.
     pub(crate) target: f64,
@@ -42,8 +42,10 @@ pub(crate) struct PilotRequest {
     pub(crate) most_for_indirect_light: Option<usize>,
     /// The shortest edge that is bisected, m, if set by hand.
     pub(crate) least_edge_m: Option<f64>,
-    /// The end of the time for the first survey. Where it is short, fewer rays gather.
+    /// The end of the time for the first survey. Where it is short, fewer rays measure the light.
     pub(crate) deadline: Deadline,
+    /// The end of the time for the whole pilot. What is not measured by then is left unknown.
+    pub(crate) end: Deadline,
 }
 
 /// The weights of errors, by the light of their surroundings.

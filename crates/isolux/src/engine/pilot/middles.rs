@@ -23,7 +23,7 @@ impl Pilot<'_> {
         };
         let new: Vec<u32> = self.mesh.subdivision.leaves().filter(is_new).collect();
         let asking = |node: u32| {
-            if !self.near.beset[node as usize] {
+            if !self.near.beset[node as usize] || self.end.has_passed() {
                 return None;
             }
             let place = SurfacePoint::amid_node(self.scene, &self.mesh.subdivision, node);
@@ -39,7 +39,7 @@ impl Pilot<'_> {
         let (nodes, rows): (Vec<u32>, Vec<Gatherer>) = asked.into_iter().flatten().unzip();
         let key = self.key.with(2);
         let gathering = self.gathering(elements, self.indirect.solved_nodes, &self.near.standings);
-        let operator = gathering.operator(&rows, |_| key);
+        let operator = self.operator(&gathering, &rows, key);
         let light = operator.apply(&self.indirect.lx);
         self.traced += operator.rays;
         let middles = light.iter().map(|e| e.luminance()).zip(&rows);

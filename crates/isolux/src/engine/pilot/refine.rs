@@ -84,7 +84,8 @@ impl Pilot<'_> {
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) {
-        while let Some(marked) = criterion.marked(self, look, request, go_on) {
+        while !self.end.has_passed() {
+            let Some(marked) = criterion.marked(self, look, request, go_on) else { break };
             let has_time =
                 marked.excess.is_none_or(|excess| self.has_time(look, request, excess, go_on));
             if !has_time || !self.bisect(marked) {

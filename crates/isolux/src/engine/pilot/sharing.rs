@@ -11,8 +11,11 @@ use rayon::prelude::*;
 use std::time::{Duration, Instant};
 
 impl Pilot<'_> {
-    /// Measures the noise of gathered light and of caustics with trial rays and particles.
+    /// Measures the noise of gathered light and of caustics with trial rays and particles, if there is time.
     pub(super) fn try_some(&mut self, look: &Survey, target: f64) {
+        if self.end.has_passed() {
+            return;
+        }
         let vertices = look.elements.vertices();
         let carries =
             |&v: &usize| self.near.standings[v].is_some() && self.mesh.carriers.is_active(v as u32);
@@ -49,7 +52,7 @@ impl Pilot<'_> {
     /// The time to measure direct light at some vertices again.
     fn measures_again(&self, some: &[(Gatherer, f64)]) -> Duration {
         let (started, sequence) = (Instant::now(), Sequence::new(self.key.with(1)));
-        some.par_iter().for_each(|(of, _)| {
+        some.par_iter().filter(|_| !self.end.has_passed()).for_each(|(of, _)| {
             std::hint::black_box(
                 self.lighting.illuminance(&of.surface, &mut Dice::new(sequence, 0)),
             );

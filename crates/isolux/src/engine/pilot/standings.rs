@@ -43,8 +43,8 @@ impl Pilot<'_> {
         let mut before = std::mem::take(&mut self.near.standings);
         before.resize(gatherers.len(), None);
         let surface = |k: usize| gatherers[k].surface;
-        self.near.standings =
-            self.near.felt.standings(self.scene, &self.mesh.subdivision, &before, surface);
+        let of = (self.scene, &self.mesh.subdivision);
+        self.near.standings = self.near.felt.standings(of, &before, surface, &self.end);
         let beside_hidden =
             self.near.footprints.beside(&self.mesh.subdivision, |vertex| !self.near.known[vertex]);
         for (k, standing) in self.near.standings.iter_mut().enumerate() {
@@ -65,13 +65,14 @@ impl Pilot<'_> {
         }
         let is_beset =
             |node: u32| self.near.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
-        self.near.footprints.look(self.scene, &self.mesh.subdivision, is_beset);
+        let end = &self.end;
+        self.near.footprints.look(self.scene, &self.mesh.subdivision, is_beset, end);
     }
 
     /// Sets dark vertices close behind an object across their elements to the standing of a rim. Their elements are
     /// then read from the lit corners before the object.
     fn set_shaded_apart(&mut self) {
-        if self.indirect.lx.is_empty() {
+        if self.indirect.lx.is_empty() || self.end.has_passed() {
             return;
         }
         let light_lx = |v: u32| {

@@ -5,15 +5,15 @@ use super::look::{PilotRequest, Surroundings};
 use crate::ablation::without;
 use crate::elements::{Elements, FewNumbers, Subdivision, TOGETHER};
 use crate::engine::gather::{
-    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering, RayTrial, Sight, Unlit,
-    allot,
+    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering, Operator, RayTrial, Sight,
+    Unlit, allot,
 };
 use crate::engine::light::Lighting;
 use crate::engine::mesh::{Carriers, Details, bisect_to_scale};
 use crate::engine::occlusion::{ClosedIn, Footprints};
 use crate::engine::particle::{Aim, CausticNoise};
-use crate::engine::ray::SurfacePoint;
 use crate::engine::ray::reflectance::Reflectances;
+use crate::engine::ray::{Deadline, NEVER, SurfacePoint};
 use crate::map::Standing;
 use crate::sampling::Key;
 use crate::scene::Scene;
@@ -22,6 +22,7 @@ use isolux_geometry::Point;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// The number of vertices of the first mesh, unless the scene has more.
 const FIRST_VERTICES: f64 = 700.0;
@@ -78,6 +79,10 @@ pub(super) struct Pilot<'s> {
     pub(super) costs: Costs,
     /// The number of rays traced so far.
     pub(super) traced: u64,
+    /// When the pilot was begun.
+    pub(super) started: Instant,
+    /// The end of the time. What is not measured by then is left unknown.
+    pub(super) end: Deadline,
     /// Whether there was time for all steps of the pilot.
     pub(super) is_whole: bool,
 }
@@ -148,6 +153,10 @@ pub(super) struct DirectLight {
     pub(super) added: usize,
     /// Whether direct light has its final values.
     pub(super) is_measured: bool,
+    /// The end of the time to measure direct light well: first that of the first survey, then that of the pilot.
+    pub(super) in_time: Deadline,
+    /// Whether some of it was measured in a hurry.
+    pub(super) is_hurried: bool,
 }
 
 /// Indirect light at the vertices.
@@ -240,6 +249,7 @@ impl<'s> Pilot<'s> {
         lighting: &'s Lighting<'s>,
         request: &PilotRequest,
     ) -> Self {
+        let started = Instant::now();
         let FirstMesh { subdivision, edge_m, has_many_things, most } = first_mesh(scene, request);
         let rays = Self::shared_rays(&subdivision, request.target);
         let has_noise = request.is_fitted && lighting.has_many() && lighting.is_measured_once();
@@ -268,13 +278,19 @@ impl<'s> Pilot<'s> {
             key,
             mesh,
             near: Near::default(),
-            direct: DirectLight { noise, ..DirectLight::default() },
+            direct: DirectLight {
+                noise,
+                in_time: request.deadline.clone(),
+                ..DirectLight::default()
+            },
             indirect: IndirectLight::default(),
             walls: WallLight::default(),
             bright,
             tried: Tried::default(),
             costs: Costs::default(),
             traced,
+            started,
+            end: request.end.clone(),
             is_whole: true,
         }
     }
@@ -325,6 +341,21 @@ impl<'s> Pilot<'s> {
         }
     }
 
+    /// The operator of some receivers, all with the same random numbers. Receivers whose turn comes after the end get one
+    /// ray each.
+    pub(super) fn operator(
+        &self,
+        gathering: &Gathering<'_>,
+        rows: &[Gatherer],
+        key: Key,
+    ) -> Operator {
+        let row = |k: usize| {
+            if self.end.has_passed() { rows[k].with_rays(rows[k].rays.min(1)) } else { rows[k] }
+        };
+        let operator = gathering.operator_until(&NEVER, (rows.len(), row), |_| key);
+        operator.expect("without a deadline nothing is given up")
+    }
+
     pub(super) fn sight<'a>(
         &'a self,
         elements: &'a Elements,
@@ -332,7 +363,7 @@ impl<'s> Pilot<'s> {
     ) -> Sight<'a> {
         let (scene, lighting, key) = (self.scene, self.lighting, self.key.with(3));
         let (reached, footprints) = (&self.near.reached, &self.near.footprints);
-        Sight { scene, lighting, elements, gatherers, reached, footprints, key }
+        Sight { scene, lighting, elements, gatherers, reached, footprints, key, end: &self.end }
     }
 
     /// Gives new vertices the number of rays of their parents.

@@ -11,6 +11,9 @@ impl Pilot<'_> {
     pub(super) fn complete_beset(&mut self) {
         let new = self.near.beset.len() as u32..self.mesh.subdivision.node_count() as u32;
         let is_beset = |node: u32| {
+            if self.end.has_passed() {
+                return false;
+            }
             let place = SurfacePoint::amid_node(self.scene, &self.mesh.subdivision, node);
             nearby::is_beset(self.scene, &place, self.mesh.subdivision.longest_edge_m(node))
         };
@@ -24,7 +27,7 @@ impl Pilot<'_> {
         let on_border = self.mesh.subdivision.border_vertices();
         let edges_m = self.mesh.subdivision.longest_edges_m();
         let stands_in_m = |vertex: usize| {
-            if on_border[vertex] {
+            if on_border[vertex] || self.end.has_passed() {
                 return f64::INFINITY;
             }
             nearby::hemmed_in_m(
@@ -45,6 +48,9 @@ impl Pilot<'_> {
         let is_new = |vertex: &u32| !self.near.beset_from_m.contains_key(vertex);
         let new: Vec<u32> = self.mesh.carriers.parents().into_iter().filter(is_new).collect();
         let beset_from_m = |&vertex: &u32| {
+            if self.end.has_passed() {
+                return (vertex, f64::INFINITY);
+            }
             let place = &gatherers[vertex as usize].surface;
             (vertex, nearby::beset_from_m(self.scene, place, self.mesh.spacing_m))
         };

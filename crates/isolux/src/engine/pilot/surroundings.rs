@@ -46,7 +46,7 @@ impl Pilot<'_> {
         let own = |&lx: &f64| if lx > 0.0 { weight(lx, reference_lx) } else { f64::INFINITY };
         let own: Vec<f64> = about_lx.iter().map(own).collect();
         let in_rooms = own.par_iter().zip(gatherers).map(|(&own, gatherer)| {
-            let is_dim = own > 1.0 && own.is_finite();
+            let is_dim = own > 1.0 && own.is_finite() && !self.end.has_passed();
             let place = gatherer.stand();
             if is_dim && is_in_room(self.scene, place) { own } else { 1.0 }
         });

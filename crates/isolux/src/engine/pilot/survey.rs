@@ -22,6 +22,10 @@ impl Pilot<'_> {
         let started = Instant::now();
         self.complete_beset();
         self.costs.looks.add(started.elapsed(), 0.0);
+        if is_first {
+            // All that follows takes about as long, even without rays: it visits the same vertices and elements.
+            self.end = self.end.clone().ahead_by(self.started.elapsed());
+        }
         self.complete_direct(&elements, &gatherers);
         if is_first && self.resolve_what_lands((&mut elements, &mut gatherers), request) {
             self.complete_beset();
@@ -52,6 +56,7 @@ impl Pilot<'_> {
         let longer = if is_first { FIRST_SURVEY_COST } else { 1.0 };
         self.costs.looks.add(started.elapsed().div_f64(longer), gatherers.len() as f64);
         if is_first {
+            self.direct.in_time = self.end.clone();
             self.costs.first.add(started.elapsed(), 0.0);
         }
         let worst = WorstElements::of(&errors);

@@ -28,7 +28,7 @@ impl Pilot<'_> {
     /// Builds the control variate of walls if enough places see them, polynomials fit their light, and enough noise is
     /// removed. Where little noise is left, vertices of the pilot get fewer rays.
     pub(super) fn find_walls(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
-        if without("control-variate") {
+        if without("control-variate") || self.end.has_passed() {
             return;
         }
         let lit: Vec<usize> = (0..gatherers.len())
@@ -80,11 +80,11 @@ impl Pilot<'_> {
         rows.iter_mut().for_each(|row| row.rays = row.rays.min(FIRST_LOOK_RAYS));
         let key = self.key.with(8);
         let gathering = self.gathering(elements, u32::MAX, &self.near.standings);
-        let operator = gathering.operator(&rows, |_| key);
+        let operator = self.operator(&gathering, &rows, key);
         self.traced += operator.rays;
         let black = vec![Rgb::BLACK; gatherers.len()];
-        self.indirect.lx =
-            operator.solve(&black, &black, &self.mesh.carriers.waiting(), PILOT_TOLERANCE);
+        let waiting = self.mesh.carriers.waiting();
+        self.indirect.lx = operator.solve(&black, &black, &waiting, (PILOT_TOLERANCE, &self.end));
     }
 
     /// The noise at some places with the control variate, as a share of the noise without it; `None` if there is no
@@ -141,7 +141,8 @@ impl Pilot<'_> {
         // Receivers on borders move as their elements become smaller.
         let known = self.walls.behind.get(&vertex).filter(|(origin, _)| *origin == of.origin);
         let behind =
-            known.map_or_else(|| backdrop.behind(self.scene, &of.stand()), |&(_, light)| light);
+            || if self.end.has_passed() { None } else { backdrop.behind(self.scene, &of.stand()) };
+        let behind = known.map_or_else(behind, |&(_, light)| light);
         Gatherer { behind, ..of }
     }
 
@@ -174,7 +175,8 @@ impl Pilot<'_> {
             } else {
                 0
             };
-            let in_gap = nearby::is_closed_in(self.scene, &gatherer.surface, edge_m);
+            let in_gap = !self.end.has_passed()
+                && nearby::is_closed_in(self.scene, &gatherer.surface, edge_m);
             let gatherer = gatherer.with_rays(rays).in_gap(in_gap);
             if rays > 0 { self.before_walls(vertex, gatherer) } else { gatherer }
         };

@@ -17,7 +17,8 @@ pub(crate) use accumulator::{
     Accumulator, Effort, Estimate, MAX_INCREMENTS, Sample, UNITS_OF_REFERENCE, mean_and_variance,
 };
 pub(crate) use anderson::Anderson;
-pub(crate) use deadline::Deadline;
+pub use deadline::StopFlag;
+pub(crate) use deadline::{Deadline, NEVER};
 pub(crate) use noise::Noise;
 pub(crate) use path::{Dice, MAX_SPECULAR, PathEnd, follow, follow_on, specular_step};
 pub use place::ProbePoint;

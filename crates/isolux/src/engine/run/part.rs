@@ -105,6 +105,16 @@ impl RunPart {
         }
     }
 
+    /// The first increments without a gap that both parts contain.
+    fn overlap(&self, other: &Self) -> Option<Range<u64>> {
+        let others = other.ranges();
+        let with = |own: Range<u64>| {
+            let both = |other: &Range<u64>| own.start.max(other.start)..own.end.min(other.end);
+            others.iter().map(both).find(|both| !both.is_empty())
+        };
+        self.ranges().into_iter().find_map(with)
+    }
+
     /// Adds the increments of another part. The result does not depend on the order or the grouping of parts.
     pub fn merge(&mut self, other: Self) -> Result<(), MergeError> {
         if let Some(what) = self.identity.difference(&other.identity) {
@@ -119,14 +129,7 @@ impl RunPart {
         {
             return Err(MergeError::OtherRun("the number of receivers"));
         }
-        let doubly = |own: &Segment, other: &Segment| {
-            let (a, b) = (own.range(), other.range());
-            let both = a.start.max(b.start)..a.end.min(b.end);
-            (!both.is_empty()).then_some(both)
-        };
-        let mut pairs =
-            self.segments.iter().flat_map(|a| other.segments.iter().map(move |b| (a, b)));
-        if let Some(both) = pairs.find_map(|(own, other)| doubly(own, other)) {
+        if let Some(both) = self.overlap(&other) {
             return Err(MergeError::Overlap(both));
         }
         let mut all = std::mem::take(&mut self.segments);

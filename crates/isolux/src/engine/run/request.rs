@@ -1,6 +1,7 @@
 //! The request to an engine, and the progress that the engine reports.
 
 use crate::engine::method::{IrradianceCache, RadiositySettings};
+use crate::engine::ray::StopFlag;
 use crate::map::{Accuracy, Method};
 use std::ops::Range;
 use std::time::Duration;
@@ -17,6 +18,8 @@ pub struct SolveRequest {
     pub mesh_accuracy: f64,
     /// The time after which the run stops, with a valid map.
     pub time_limit: Option<Duration>,
+    /// A request to stop the run, which others may raise: the run ends as at the time limit.
+    pub stop: StopFlag,
     /// The seed of the random numbers. The same seed gives the same bits.
     pub seed: u64,
     /// Whether a filter reduces the noise of the map where it shows no other detail.
@@ -50,6 +53,7 @@ impl Default for SolveRequest {
             accuracy: Some(0.01),
             mesh_accuracy: 0.05,
             time_limit: None,
+            stop: StopFlag::default(),
             seed: 1,
             filter: true,
             audit: true,

@@ -141,7 +141,7 @@ impl RunIdentity {
     }
 
     /// The first difference from another identity.
-    pub(crate) fn difference(&self, saved: &Self) -> Option<&'static str> {
+    pub fn difference(&self, saved: &Self) -> Option<&'static str> {
         let same = [
             ("the scene", self.scene_hash == saved.scene_hash),
             ("the version of isolux", self.version == saved.version),

@@ -136,7 +136,7 @@ fn light_settles_among_carriers_as_it_does_among_all() {
     let black = vec![Rgb::BLACK; vertices];
     let fit = &plan.mesh.fit;
     let (settled, left) =
-        operator.solve_or_give_up(&black, &black, (&plan.mesh.waiting, Some(fit)), 1e-10);
+        operator.solve_or_give_up(&black, &black, (&plan.mesh.waiting, Some(fit)), (1e-10, &NEVER));
     let mut image = operator.apply(&fit.apply(&settled));
     plan.mesh.waiting.fill(&mut image);
     let rms = |of: &dyn Fn(usize) -> f64| {

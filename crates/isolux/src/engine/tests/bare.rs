@@ -7,7 +7,7 @@ use crate::engine::light::Lighting;
 use crate::engine::method::{Hybrid, IncrementSize, PathTracer};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Deadline, ProbePoint};
+use crate::engine::ray::{NEVER, ProbePoint};
 use crate::engine::read::ExactSettings;
 use std::sync::Arc;
 
@@ -42,9 +42,8 @@ fn vertices_gather_for_the_bare_map_where_it_is_coarse() {
     let checks = check_points::draw(&plan, 64, Key::new(5));
     let size = IncrementSize { rays: 64.0, halvings: 0, particles: 0, goal: 0.02 };
     let mut hybrid = Hybrid::new(&plan, &checks, size, 1 << 10, 1);
-    let increments: Vec<_> = (0..8)
-        .map(|index| hybrid.increment(index, &checks, Deadline::NEVER).unwrap().receivers)
-        .collect();
+    let increments: Vec<_> =
+        (0..8).map(|index| hybrid.increment(index, &checks, &NEVER).unwrap().receivers).collect();
     let mean = |k: usize| increments.iter().map(|of| of[k].indirect).sum::<Rgb>() / 8.0;
     let vertices: Vec<Rgb> = (0..plan.mesh.indirect_vertices).map(mean).collect();
     let between = plan.prolongate(&vertices);
@@ -77,7 +76,7 @@ fn what_gathers_for_the_bare_map_is_read_by_no_ray() {
     let made = |plan: &Plan| {
         let size = IncrementSize { rays: 32.0, halvings: 0, particles: 0, goal: 0.02 };
         let mut hybrid = Hybrid::new(plan, &[], size, 1 << 10, 1);
-        hybrid.increment(0, &[], Deadline::NEVER).unwrap()
+        hybrid.increment(0, &[], &NEVER).unwrap()
     };
     let (with, without, plan) = (made(&with), made(&without), with);
     let mut differ = 0;

@@ -7,7 +7,7 @@ use crate::engine::light::{Emission, Lighting};
 use crate::engine::method::{Forward, Tally};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, Deadline, SurfacePoint};
+use crate::engine::ray::{Accumulator, NEVER, SurfacePoint};
 
 /// Deposits an illuminance over all elements, on a fine lattice of each.
 fn light_up(plan: &Plan, tally: &Tally, lux: impl Fn(Point) -> f64) -> f64 {
@@ -85,7 +85,7 @@ fn forward(scene: &Scene, request: &PilotRequest) -> (Vec<f64>, Vec<f64>) {
     let engine = Forward::new(&plan, Emission::new(scene).unwrap(), 0.05, 1);
     let mut sums = Accumulator::new(plan.mesh.elements.vertices().len(), plan.light.reference_lx);
     for k in 0..4 {
-        engine.increment(k, &mut sums, &mut lacking);
+        engine.increment(k, &mut sums, &mut lacking, &NEVER).unwrap();
     }
     let lx = |k: usize| {
         let mean = sums.estimate(k).mean;
@@ -109,7 +109,8 @@ fn particles_carry_the_flux_and_what_is_reflected() {
         max_vertices: 150,
         most_for_indirect_light: None,
         least_edge_m: None,
-        deadline: Deadline::NEVER,
+        deadline: NEVER.clone(),
+        end: NEVER.clone(),
     };
     let (lx, areas_m2) = forward(&room(), &request);
     let arriving_lm: f64 = lx.iter().zip(&areas_m2).map(|(e, a)| e * a).sum();
@@ -134,7 +135,8 @@ fn particles_light_all_vertices() {
         max_vertices: 3000,
         most_for_indirect_light: None,
         least_edge_m: None,
-        deadline: Deadline::NEVER,
+        deadline: NEVER.clone(),
+        end: NEVER.clone(),
     };
     let (lx, _) = forward(&room(), &request);
     let dark = lx.iter().filter(|&&e| e == 0.0).count();

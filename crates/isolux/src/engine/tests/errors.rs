@@ -6,7 +6,7 @@ use crate::engine::judge::{Check, InterpolationErrors, Pooled, accuracy, check_p
 use crate::engine::light::Lighting;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, Deadline, Noise, ProbePoint, Sample};
+use crate::engine::ray::{Accumulator, NEVER, Noise, ProbePoint, Sample};
 use crate::engine::read::{ExactSettings, MapReader};
 use crate::engine::run::prediction;
 use crate::engine::{SolveRequest, Watch, solve};
@@ -29,7 +29,8 @@ pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Pl
         max_vertices: 150,
         most_for_indirect_light: None,
         least_edge_m: None,
-        deadline: Deadline::NEVER,
+        deadline: NEVER.clone(),
+        end: NEVER.clone(),
     };
     pilot(scene, lighting, &request, &Unlit::default(), &mut |_| true)
 }

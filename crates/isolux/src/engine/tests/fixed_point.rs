@@ -54,7 +54,8 @@ fn a_furnace_settles_where_all_light_is_alike() {
     let given = vec![Rgb::new(7.0, 5.0, 3.0); n];
     let expected = Rgb::new(7.0, 5.0, 3.0) * REFLECTANCE.map(|rho| rho / (1.0 - rho));
     for guess in [Rgb::BLACK, Rgb::grey(1e4)] {
-        let solved = operator.solve(&vec![guess; n], &given, &Carriers::all().waiting(), 1e-9);
+        let solved =
+            operator.solve(&vec![guess; n], &given, &Carriers::all().waiting(), (1e-9, &NEVER));
         for e in solved {
             for c in 0..3 {
                 // An error of a ray's weight is reflected as the light is.
@@ -84,7 +85,7 @@ fn the_fixed_point_is_one() {
     let (elements, gatherers) = elements_of(&scene, 32);
     let operator = operator(&scene, &elements, &gatherers);
     let given: Vec<Rgb> = (0..gatherers.len()).map(|k| Rgb::grey((k % 7) as f64)).collect();
-    let solved = operator.solve(&given, &given, &Carriers::all().waiting(), 1e-10);
+    let solved = operator.solve(&given, &given, &Carriers::all().waiting(), (1e-10, &NEVER));
     let light: Vec<Rgb> = solved.iter().zip(&given).map(|(&e, &g)| e + g).collect();
     for (a, b) in operator.apply(&light).iter().zip(&solved) {
         // The last change was 1e-10 of the root mean square, of values of about ten.
@@ -109,7 +110,7 @@ fn a_dim_room_settles_beside_a_bright_one() {
     let shares = REFLECTANCE.map(|rho| rho / (1.0 - rho));
     let guess: Vec<Rgb> =
         is_dim.iter().map(|&dim| if dim { Rgb::BLACK } else { shares * 1e4 }).collect();
-    let solved = operator.solve(&guess, &given, &Carriers::all().waiting(), 1e-3);
+    let solved = operator.solve(&guess, &given, &Carriers::all().waiting(), (1e-3, &NEVER));
     for (e, _) in solved.iter().zip(&is_dim).filter(|(_, dim)| **dim) {
         // The last sweep may have changed it by ten times the tolerance, of which nine times as much is left at 0.9.
         assert!((0..3).all(|c| (e.0[c] / shares.0[c] - 1.0).abs() < 0.09), "{e:?} for {shares:?}");
@@ -298,12 +299,12 @@ fn receivers_that_no_light_comes_to_have_none_at_once() {
     );
     let black = [Rgb::BLACK; 4];
     let waiting = Carriers::all().waiting();
-    let solved = operator.solve(&[Rgb::grey(100.0); 4], &black, &waiting, 1e-6);
+    let solved = operator.solve(&[Rgb::grey(100.0); 4], &black, &waiting, (1e-6, &NEVER));
     assert_eq!(solved[2..], [Rgb::BLACK; 2]);
     // E1 = 1 + 0.9 E2, E2 = 0.9 E1.
     assert!((solved[0].0[0] * 0.19 - 1.0).abs() < 1e-5, "{:?}", solved[0]);
     // Light that is given beside reaches them.
     let given = [Rgb::BLACK, Rgb::BLACK, Rgb::grey(1.0), Rgb::BLACK];
-    let solved = operator.solve(&[Rgb::grey(100.0); 4], &given, &waiting, 1e-6);
+    let solved = operator.solve(&[Rgb::grey(100.0); 4], &given, &waiting, (1e-6, &NEVER));
     assert!((solved[3].0[0] * 0.19 - 0.9).abs() < 1e-5, "{:?}", solved[3]);
 }

@@ -6,7 +6,7 @@ use crate::engine::gather::Unlit;
 use crate::engine::light::Lighting;
 use crate::engine::pilot::{Costs, EachIncrement, GoOn, Outlook, PilotRequest, Round, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::ray::Deadline;
+use crate::engine::ray::{Deadline, NEVER};
 use crate::engine::{Solution, SolveRequest, Stage, Watch, foresee, solve};
 use std::time::{Duration, Instant};
 
@@ -216,7 +216,7 @@ fn a_first_survey_without_time_takes_a_ray_of_each_place() {
         let request = PilotRequest { deadline, ..usual_request() };
         pilot(&scene, &lighting, &request, &Unlit::default(), &mut |_| false)
     };
-    let (whole, cut) = (with(Deadline::NEVER), with(Deadline(Some(Instant::now()))));
+    let (whole, cut) = (with(NEVER.clone()), with(Deadline::at(Some(Instant::now()))));
     assert!(cut.rays < whole.rays, "{} of {}", cut.rays, whole.rays);
     let mean = |plan: &Plan| {
         let light = plan.light.guess.iter().map(|light| light.luminance());

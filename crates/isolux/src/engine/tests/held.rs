@@ -115,7 +115,7 @@ proptest! {
         let waiting = Carriers::all().waiting();
         let tolerance = 1e-6;
         let (found, unsettled_lx) =
-            operator.solve_or_give_up(&black, &black, (&waiting, Some(&fit)), tolerance);
+            operator.solve_or_give_up(&black, &black, (&waiting, Some(&fit)), (tolerance, &NEVER));
         let put_in = light.iter().copied().fold(0.0, f64::max);
         let most = put_in / (1.0 - reflectance);
         prop_assert!(least(&found) >= 0.0);

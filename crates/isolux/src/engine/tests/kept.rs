@@ -4,6 +4,7 @@ use super::*;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{DirectAtEnds, DirectResidual, Gatherer, Gathering, Over};
 use crate::engine::light::{Goal, Lighting};
+use crate::engine::ray::NEVER;
 use crate::engine::{MapReader, ProbePoint, SolveRequest, Watch, solve};
 use crate::map::Standing;
 
@@ -69,8 +70,12 @@ fn rays_read_the_light_that_lands_between_vertices() {
     };
     let (bare_lx, _) = read(&direct, 2);
     assert!((bare_lx / expected_lx - 1.0).abs() > 0.1, "{bare_lx} {expected_lx}");
-    let kept = DirectResidual::of(&over, 0.01 * expected_lx, Key::new(1)).expect("light varies");
-    let increment = |k: u64| read(&kept.read(&over, (1, Key::new(2).with(k))).values, 3 + k).0;
+    let kept =
+        DirectResidual::of(&over, 0.01 * expected_lx, (Key::new(1), &NEVER)).expect("light varies");
+    let increment = |k: u64| {
+        let kept = kept.read(&over, (1, Key::new(2).with(k)), &NEVER).unwrap();
+        read(&kept.values, 3 + k).0
+    };
     let (kept_lx, error_lx) = mean_and_error((0..16).map(increment));
     let error_lx = libm::hypot(error_lx, expected_error_lx);
     // As Student has it, with fifteen degrees of freedom.
@@ -94,7 +99,7 @@ fn light_that_vertices_tell_is_left_as_it_is() {
         let standings = vec![Some(Standing::Open); direct.len()];
         let (elements, standings, direct) = (&elements, &standings[..], &direct[..]);
         let over = Over { scene, lighting, elements, standings, direct, bright: None };
-        assert!(DirectResidual::of(&over, allowed_lx, Key::new(1)).is_none());
+        assert!(DirectResidual::of(&over, allowed_lx, (Key::new(1), &NEVER)).is_none());
     }
 }
 

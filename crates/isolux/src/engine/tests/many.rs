@@ -5,7 +5,7 @@ use crate::engine::gather::Unlit;
 use crate::engine::judge::check_points;
 use crate::engine::light::{Goal, Lighting, Measured, Patches};
 use crate::engine::pilot::pilot;
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{NEVER, SurfacePoint};
 use crate::engine::{SolveRequest, Watch, solve};
 use crate::photometry::PhotometricWeb;
 use std::sync::Arc;
@@ -283,7 +283,8 @@ fn noise_of_direct_light_is_part_of_the_accuracy() {
     let plan = pilot(&scene, &lighting, &usual_request(), &Unlit::default(), &mut |_| true);
     let checks = check_points::draw(&plan, 0, Key::new(2));
     let noise = |accuracy: f64| {
-        let noise_lx2 = check_points::direct(&plan, &checks, accuracy, Key::new(3)).noise_lx2;
+        let noise_lx2 =
+            check_points::direct(&plan, &checks, accuracy, (Key::new(3), &NEVER)).noise_lx2;
         noise_lx2.sqrt() / plan.light.reference_lx
     };
     let told = noise(0.01);

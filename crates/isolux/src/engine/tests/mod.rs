@@ -55,7 +55,7 @@ mod trusting;
 
 use crate::engine::mesh::Fit;
 use crate::engine::pilot::PilotRequest;
-use crate::engine::ray::{Deadline, Dice, SurfacePoint};
+use crate::engine::ray::{Dice, NEVER, SurfacePoint};
 use crate::photometry::IntensityDistribution;
 use crate::sampling::{Key, Sequence};
 use crate::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape};
@@ -132,7 +132,8 @@ fn usual_request() -> PilotRequest {
         max_vertices: 1 << 20,
         most_for_indirect_light: None,
         least_edge_m: None,
-        deadline: Deadline::NEVER,
+        deadline: NEVER.clone(),
+        end: NEVER.clone(),
     }
 }
 

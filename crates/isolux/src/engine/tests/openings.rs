@@ -6,7 +6,7 @@ use crate::engine::light::{Goal, Lighting};
 use crate::engine::mesh::{LEAST, lend_noise};
 use crate::engine::method::{Hybrid, IncrementSize, PathTracer};
 use crate::engine::pilot::pilot;
-use crate::engine::ray::{Deadline, ProbePoint};
+use crate::engine::ray::{NEVER, ProbePoint};
 use crate::engine::read::{ExactSettings, MapReader};
 use crate::engine::{SolveRequest, Watch, solve};
 use crate::map::{Standing, VertexLight};
@@ -204,7 +204,7 @@ fn noise_that_readings_have_in_common_is_told_at_vertices() {
     let operator = gathering.operator(&rows, |row| Key::new(77).with(row as u64));
     let (mut read, mut told) = (vec![Vec::new(); 3], vec![Vec::new(); 3]);
     for index in 0..INCREMENTS {
-        let increment = hybrid.increment(index, &[], Deadline::NEVER).unwrap();
+        let increment = hybrid.increment(index, &[], &NEVER).unwrap();
         let light: Vec<Rgb> =
             increment.receivers[..plan.mesh.indirect_vertices].iter().map(|s| s.indirect).collect();
         for (k, lx) in operator.reflected(&light).into_iter().enumerate() {

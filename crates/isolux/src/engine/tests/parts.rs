@@ -9,7 +9,7 @@ use crate::engine::method::deposit;
 use crate::engine::particle::{ElementParts, PARTS, Squared, part_of, read_in_parts, samples};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, Deadline, Noise};
+use crate::engine::ray::{Accumulator, NEVER, Noise};
 use crate::map::Standing;
 use crate::scene::{Body, Dielectric};
 use std::sync::Arc;
@@ -144,7 +144,8 @@ fn request(target: f64) -> PilotRequest {
         max_vertices: 100_000,
         most_for_indirect_light: None,
         least_edge_m: None,
-        deadline: Deadline::NEVER,
+        deadline: NEVER.clone(),
+        end: NEVER.clone(),
     }
 }
 
@@ -154,7 +155,9 @@ fn caustic_error(plan: &Plan, particles: u32) -> f64 {
     let mut sums = Accumulator::new(plan.errors.parts.count(), plan.light.reference_lx);
     for k in 0..increments {
         sums.add(samples(
-            &deposit(plan, particles / increments, Key::new(99).with(u64::from(k))).lacking,
+            &deposit(plan, particles / increments, Key::new(99).with(u64::from(k)), &NEVER)
+                .unwrap()
+                .lacking,
         ));
     }
     let seen: Squared = plan.errors.parts.errors(&sums).into_iter().sum();

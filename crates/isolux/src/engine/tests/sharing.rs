@@ -6,7 +6,7 @@ use crate::engine::gather::{RayTrial, Shared, allot, allot_by_noise, known_weigh
 use crate::engine::light::Lighting;
 use crate::engine::method::{Hybrid, IncrementSize, deposit};
 use crate::engine::particle::{CausticNoise, particles};
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{NEVER, SurfacePoint};
 use crate::scene::Gloss;
 use std::sync::Arc;
 
@@ -160,7 +160,8 @@ fn caustics_are_as_noisy_as_a_trial_tells() {
     // As many as a thousand times the vertices would need for as much error as there is light: in the middle of what may be.
     let count = told.particles(areas_m2.len() * 1000, (1.0, plan.light.reference_lx), 1, 0.1);
     assert!(count > 1024 && count < particles(areas_m2.len() * 1000), "{count}");
-    let maps: Vec<Vec<Rgb>> = (0..16).map(|k| deposit(&plan, 4096, Key::new(k)).light).collect();
+    let light = |k| deposit(&plan, 4096, Key::new(k), &NEVER).unwrap().light;
+    let maps: Vec<Vec<Rgb>> = (0..16).map(light).collect();
     let (mut squares, mut area) = (0.0, 0.0);
     for (v, m2) in areas_m2.iter().enumerate().take(plan.mesh.indirect_vertices) {
         let (_, error) = mean_and_error(maps.iter().map(|map| map[v].luminance()));

@@ -7,7 +7,7 @@ use crate::engine::light::Lighting;
 use crate::engine::mesh::{LeafError, Trust, TrustLevels, WorstElements, trust};
 use crate::engine::occlusion::nearby;
 use crate::engine::pilot::{PilotRequest, pilot};
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{NEVER, SurfacePoint};
 
 pub(super) fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
     let error = |(node, &(area_m2, error)): (usize, &(f64, f64))| LeafError {
@@ -139,7 +139,8 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
         max_vertices: 20_000,
         most_for_indirect_light: Some(200),
         least_edge_m: None,
-        deadline: Deadline::NEVER,
+        deadline: NEVER.clone(),
+        end: NEVER.clone(),
     };
     let plan = pilot(&scene, &lighting, &request, &Unlit::default(), &mut |_| true);
     let at = plan.expected_lx(plan.trust());

@@ -14,7 +14,7 @@ use super::{CACHE_REPLICATES, CacheSample, IrradianceCache};
 use crate::engine::judge::{Check, Checks, DirectThere, check_points};
 use crate::engine::particle::element_parts;
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, Deadline, Effort, Sample, SurfacePoint};
+use crate::engine::ray::{Accumulator, Deadline, Effort, NEVER, Sample, SurfacePoint};
 use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -73,7 +73,7 @@ impl<'p, 's> Cached<'p, 's> {
             carries.then(|| Place::from(&plan.mesh.gatherers[vertex]))
         };
         let places: Vec<Option<Place>> = (0..plan.mesh.indirect_vertices).map(place).collect();
-        store.serve(places.iter().flatten().copied().collect());
+        store.serve(places.iter().flatten().copied().collect(), &plan.end);
         store.guess(&Making {
             index: 0,
             rays: FEWEST_FAR_RAYS,
@@ -81,13 +81,13 @@ impl<'p, 's> Cached<'p, 's> {
             lighting: plan.lighting,
             bright: plan.light.bright.as_deref(),
             caustic: &|_| Rgb::BLACK,
-            deadline: Deadline::NEVER,
+            deadline: &plan.end,
         });
         let ties = |place: &Option<Place>| place.map_or(Vec::new(), |place| store.ties(&place));
         let ties = places.par_iter().map(ties).collect();
         let checked: Vec<Place> = checks.iter().map(|check| Place::from(&check.gatherer)).collect();
         let far_ties = checked.par_iter().map(|place| store.far_ties(place)).collect();
-        let check_direct = check_points::direct(plan, checks, target, key.with(0));
+        let check_direct = check_points::direct(plan, checks, target, (key.with(0), &plan.end));
         let rays = wanted.max(FEWEST_RAYS).next_power_of_two();
         let particles = plan.particles(target, CACHE_REPLICATES as u64);
         Self { plan, store, ties, checks: checked, far_ties, check_direct, rays, particles, key }
@@ -108,7 +108,7 @@ impl<'p, 's> Cached<'p, 's> {
             lighting: self.plan.lighting,
             bright: self.plan.light.bright.as_deref(),
             caustic: &|_| Rgb::BLACK,
-            deadline: Deadline::NEVER,
+            deadline: &NEVER,
         };
         let places: Vec<Place> = self.checks.iter().step_by(8).copied().collect();
         self.store.fresh(
@@ -134,14 +134,14 @@ impl<'p, 's> Cached<'p, 's> {
         index: u64,
         receivers: &mut Accumulator,
         checks: &mut Checks,
-        deadline: Deadline,
+        deadline: &Deadline,
     ) -> Option<Effort> {
         let (plan, key) = (self.plan, self.key.with(1 + index));
         let Checks { points: checks, sums: check_sums, lacking: lacking_sums } = checks;
         let (direct, check_direct) =
             hybrid::direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
         let Caustics { light: caustic, means: reflected_on, lacking, effort: particles } =
-            caustics::deposit(plan, self.particles, key.with(1));
+            caustics::deposit(plan, self.particles, key.with(1), deadline)?;
         let caustic_at = |at: &SurfacePoint| caustic_at(plan, &reflected_on, at);
         let (lighting, bright) = (plan.lighting, plan.light.bright.as_deref());
         let making = |part: u64, rays: u32| Making {

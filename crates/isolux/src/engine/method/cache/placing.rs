@@ -8,7 +8,7 @@ use super::hemisphere::{polar, reflected};
 use super::layer::{Layer, Site};
 use crate::elements::carries_map;
 use crate::engine::gather::Gatherer;
-use crate::engine::ray::{Dice, SurfacePoint, follow, place_key};
+use crate::engine::ray::{Deadline, Dice, SurfacePoint, follow, place_key};
 use crate::sampling::{Key, Sequence};
 use crate::scene::{Body, Scene};
 use isolux_geometry::{Normal, Point, Ray};
@@ -108,7 +108,7 @@ pub(super) fn serve(
     scene: &Scene,
     layer: &mut Layer,
     places: Vec<Place>,
-    radii: Radii,
+    (radii, deadline): (Radii, &Deadline),
 ) -> (Vec<Place>, u64) {
     let places = in_random_order(places);
     let (mut seen, mut rays) = (Vec::new(), 0);
@@ -118,7 +118,9 @@ pub(super) fn serve(
         let part = &places[first..end];
         let felt: Vec<Felt> = part
             .par_iter()
-            .filter(|place| !layer.covers(scene, place.origin, place.normal))
+            .filter(|place| {
+                !deadline.has_passed() && !layer.covers(scene, place.origin, place.normal)
+            })
             .map(|place| feel(scene, place, radii))
             .collect();
         rays += felt.len() as u64 * u64::from(FEELERS);
@@ -139,14 +141,14 @@ pub(super) fn serve_all_seen(
     scene: &Scene,
     layer: &mut Layer,
     mut places: Vec<Place>,
-    radii: Radii,
+    (radii, deadline): (Radii, &Deadline),
 ) -> u64 {
     let mut rays = 0;
     for _ in 0..ROUNDS {
         if places.is_empty() {
             break;
         }
-        let (seen, traced) = serve(scene, layer, places, radii);
+        let (seen, traced) = serve(scene, layer, places, (radii, deadline));
         places = seen;
         rays += traced;
     }

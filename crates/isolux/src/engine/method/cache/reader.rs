@@ -8,7 +8,7 @@ use super::{CACHE_REPLICATES, CacheError, CacheSample, IrradianceCache};
 use crate::elements::carries_map;
 use crate::engine::gather::BrightSurfaces;
 use crate::engine::light::{Lighting, Patches};
-use crate::engine::ray::{Deadline, Dice, Places, SurfacePoint, place_key};
+use crate::engine::ray::{Dice, NEVER, Places, SurfacePoint, place_key};
 use crate::engine::read::GLANCE_SAMPLES;
 use crate::map::{Illuminance, Standing};
 use crate::sampling::{Key, Sequence};
@@ -126,7 +126,7 @@ impl<'s> CacheReader<'s> {
         let Self { scene, lighting, bright, store, settings, .. } = self;
         let places = places.iter().filter_map(|at| place(scene, &self.places, at));
         let mut served = Served {
-            rays: store.serve(places.map(|at| Place::from(&at)).collect()),
+            rays: store.serve(places.map(|at| Place::from(&at)).collect(), &NEVER),
             ..Served::default()
         };
         let key = Key::new(settings.seed).with(7);
@@ -137,7 +137,7 @@ impl<'s> CacheReader<'s> {
             lighting,
             bright: bright.as_deref(),
             caustic: &|_| Rgb::BLACK,
-            deadline: Deadline::NEVER,
+            deadline: &NEVER,
         };
         if store.far.known.is_empty() {
             served.rays += store.guess(&making(0, 0, settings.far_rays));

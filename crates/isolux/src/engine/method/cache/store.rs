@@ -7,7 +7,7 @@ use super::record::Sum;
 use super::{CACHE_REPLICATES, CacheSample, IrradianceCache, SampleKind};
 use crate::engine::gather::BrightSurfaces;
 use crate::engine::light::Lighting;
-use crate::engine::ray::{Deadline, Dice, place_key};
+use crate::engine::ray::{Deadline, Dice, NEVER, place_key};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -76,7 +76,7 @@ pub(super) struct Making<'a> {
     pub(super) lighting: &'a Lighting<'a>,
     pub(super) bright: Option<&'a BrightSurfaces>,
     pub(super) caustic: Caustic<'a>,
-    pub(super) deadline: Deadline,
+    pub(super) deadline: &'a Deadline,
 }
 
 impl<'s> Store<'s> {
@@ -110,11 +110,11 @@ impl<'s> Store<'s> {
     }
 
     /// Places samples so that these places and all places seen by their rays are served. Returns the number
-    /// of rays.
-    pub(super) fn serve(&mut self, places: Vec<Place>) -> u64 {
+    /// of rays. Places that come after the deadline stay without.
+    pub(super) fn serve(&mut self, places: Vec<Place>, deadline: &Deadline) -> u64 {
         let Self { scene, near, far, .. } = self;
-        let (seen, rays) = serve(scene, &mut near.layer, places, near.radii);
-        rays + serve_all_seen(scene, &mut far.layer, seen, far.radii)
+        let (seen, rays) = serve(scene, &mut near.layer, places, (near.radii, deadline));
+        rays + serve_all_seen(scene, &mut far.layer, seen, (far.radii, deadline))
     }
 
     /// The contributions of near samples to a place.
@@ -214,7 +214,7 @@ impl<'s> Store<'s> {
             nearest_m: 0.0,
         };
         let sites: Vec<Site> = places.iter().map(site).collect();
-        let never = Making { deadline: Deadline::NEVER, ..*making };
+        let never = Making { deadline: &NEVER, ..*making };
         let seen = self.look(&sites, &never).expect("without a deadline nothing is given up");
         let rays = seen.iter().map(Hemisphere::ray_count).sum();
         (seen.par_iter().map(|s| s.light(far).value()).collect(), rays)

@@ -341,7 +341,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         sums: &mut Accumulator,
         patches: &mut Accumulator,
         left: &Left,
-        deadline: Deadline,
+        deadline: &Deadline,
     ) -> Option<Effort> {
         let index = sums.increments;
         let Left { fluxes, unsent_lm, .. } = left;
@@ -367,7 +367,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         patch: usize,
         index: u64,
         (sums, patches): (&mut Accumulator, &mut Accumulator),
-        deadline: Deadline,
+        deadline: &Deadline,
     ) -> Option<u64> {
         let is_first = patches.count_at(patch) == 0;
         let light = self.light(sums, is_first, patch);
@@ -549,7 +549,7 @@ impl Checks {
         };
         Self {
             operators: (0..CHECKINGS).map(operator).collect(),
-            direct: check_points::direct(plan, points, accuracy, key.with(0)).lx,
+            direct: check_points::direct(plan, points, accuracy, (key.with(0), &plan.end)).lx,
         }
     }
 }
@@ -571,6 +571,9 @@ fn direct(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>) {
         return (plan.light.direct.clone(), plan.light.direct_variance.clone());
     }
     let vertex = |(k, gatherer): (usize, &Gatherer)| {
+        if plan.end.has_passed() {
+            return (plan.light.direct[k], 0.0);
+        }
         let one = |replicate: u64| {
             let sequence = Sequence::new(key.with(k as u64).with(replicate));
             plan.lighting.illuminance(&gatherer.surface, &mut Dice::new(sequence, 0))
@@ -597,15 +600,16 @@ fn caustic(plan: &Plan, accuracy: f64, key: Key) -> ReplicatedCaustics {
     let mut sum = Effort::default();
     let mut replicates = Vec::new();
     for replicate in 0..REPLICATES {
-        let Caustics { light, effort, .. } =
-            caustics::deposit(plan, particles, key.with(replicate));
+        let deposited = caustics::deposit(plan, particles, key.with(replicate), &plan.end);
+        let Some(Caustics { light, effort, .. }) = deposited else { break };
         sum.rays += effort.rays;
         sum.given_up_lx += effort.given_up_lx / REPLICATES as f64;
         replicates.push(light);
     }
     let at = |k: usize| {
         let values: Vec<Rgb> = replicates.iter().map(|r| r[k]).collect();
-        mean_and_variance(&values)
+        // Without them, for want of time, there is no light, and the errors of the map are not known.
+        if values.len() < 2 { (Rgb::BLACK, 0.0) } else { mean_and_variance(&values) }
     };
     let (light, variance): (Vec<Rgb>, Vec<f64>) = (0..plan.mesh.indirect_vertices).map(at).unzip();
     ReplicatedCaustics { lx: plan.prolongate(&light), variance, effort: sum }

@@ -174,6 +174,10 @@ impl Pilot<'_> {
                 return Vec::new();
             };
             let one = |index: u32| {
+                // Nothing reads what comes after the end.
+                if self.end.has_passed() {
+                    return (Vec::new(), 0);
+                }
                 let deposits = RefCell::new(Vec::new());
                 let (rays, _) = flights.fly(index, |at, flux_lm| {
                     let (triangle, back, place) = (at.triangle, at.back, [at.u, at.v]);

@@ -66,12 +66,15 @@ impl Criterion for Hidden {
 }
 
 impl Pilot<'_> {
-    /// The places of an element, as bits, that see no lit surface; `None` if light reaches a place that sees no open
+    /// The places of an element, as bits, that are known to see no lit surface; `None` if light reaches a place that sees no open
     /// vertex.
     fn unlit_places(&self, sight: &Sight<'_>, node: u32) -> Option<u16> {
         let sequence = Sequence::new(self.key.with(4).with(u64::from(node)));
         let mut unlit = self.near.unlit.0.get(&self.element(node)).copied().unwrap_or(0);
         for k in 0..TESTED_PLACES {
+            if self.end.has_passed() {
+                break;
+            }
             let square = Dice::new(sequence, k).pair();
             let place = SurfacePoint::in_node(self.scene, &self.mesh.subdivision, node, square);
             let number = u64::from(node * TESTED_PLACES + k);

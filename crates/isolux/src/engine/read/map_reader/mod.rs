@@ -16,7 +16,9 @@ use crate::engine::gather::{BrightSurfaces, DirectAtEnds, DirectResidual, Gather
 use crate::engine::light::{Lighting, Patches};
 use crate::engine::mesh::LEAST as LEAST_OF_NOISE;
 use crate::engine::occlusion::{Barriers, nearby};
-use crate::engine::ray::{Dice, PathEnd, Places, ProbePoint, SurfacePoint, follow, place_key};
+use crate::engine::ray::{
+    Dice, NEVER, PathEnd, Places, ProbePoint, SurfacePoint, follow, place_key,
+};
 use crate::map::{Illuminance, IlluminationMap, Standing, VertexLight};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
@@ -120,11 +122,12 @@ impl<'a> MapReader<'a> {
             bright: self.bright.as_deref(),
         };
         let key = Key::new(self.map.provenance.seed).with(14);
-        let kept = DirectResidual::of(&over, self.unseen.reached_lx, key.with(0))?;
+        let kept = DirectResidual::of(&over, self.unseen.reached_lx, (key.with(0), &NEVER))?;
         let allowed_lx = FRESH_NOISE * self.unseen.reached_lx;
         let [mut samples, most] = KEPT;
         loop {
-            let read = kept.read(&over, (samples, key.with(1)));
+            let read = kept.read(&over, (samples, key.with(1)), &NEVER);
+            let read = read.expect("without a deadline nothing is given up");
             self.count(kept.rays(samples));
             if kept.noise_lx(&read) <= allowed_lx || samples >= most {
                 return Some((read, kept.varying));

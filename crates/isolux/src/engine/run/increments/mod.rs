@@ -17,7 +17,7 @@ use crate::engine::method::{
 };
 use crate::engine::particle::{Squared, element_parts, flights};
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, Deadline, Estimate, Noise, Sample};
+use crate::engine::ray::{Accumulator, Deadline, Estimate, NEVER, Noise, Sample};
 use crate::map::{Accuracy, FilterReport, Fresh, Method, Unshot, VertexLight};
 use crate::sampling::Key;
 use crate::units::Rgb;
@@ -45,6 +45,8 @@ pub(crate) struct Work<'p, 's> {
     goal: Option<f64>,
     /// The number of the first increment: zero, but for parts of runs.
     first: u64,
+    /// Whether there was time for all preparations. If not, increments serve nothing, and errors are not known.
+    is_prepared: bool,
 }
 
 enum Engine<'p, 's> {
@@ -113,10 +115,21 @@ impl<'p, 's> Work<'p, 's> {
         let given_up = Accumulator::new(1, reference_of(plan, &engine));
         let stops_at_unshot = request.radiosity.unshot.is_some();
         let (samples, left, goal) = (rays, None, request.accuracy);
-        let first = 0;
-        Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal, first }
-            .in_units_of_light()
-            .looked_at()
+        Self {
+            plan,
+            engine,
+            sums,
+            checks,
+            given_up,
+            samples,
+            left,
+            stops_at_unshot,
+            goal,
+            first: 0,
+            is_prepared: !plan.end.has_passed(),
+        }
+        .in_units_of_light()
+        .looked_at()
     }
 
     /// The increments with sums in units of the expected light. Engines of particles and shots keep one unit, since
@@ -142,14 +155,16 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// Adds one increment and returns the number of rays traced; `None` if its deadline passes before. The first
-    /// increment is always completed, except that of `hybrid`, whose pilot knows the light.
-    pub(crate) fn increment(&mut self, end: Deadline) -> Option<u64> {
-        let deadline = if self.sums.increments > 0 { end } else { Deadline::NEVER };
+    /// Adds one increment and returns the number of rays traced; `None` if its deadline passes before. The first shot of
+    /// radiosity is always completed.
+    pub(crate) fn increment(&mut self, deadline: &Deadline) -> Option<u64> {
+        if !(self.is_prepared || matches!(self.engine, Engine::Radiosity(_))) {
+            return None;
+        }
         let index = self.first + self.sums.increments;
         let effort = match &mut self.engine {
             Engine::Hybrid(hybrid) => {
-                let made = hybrid.increment(index, &self.checks.points, end)?;
+                let made = hybrid.increment(index, &self.checks.points, deadline)?;
                 self.sums.add(made.receivers);
                 self.checks.sums.add(made.checks);
                 self.checks.lacking.add(element_parts::samples(&made.lacking));
@@ -159,10 +174,11 @@ impl<'p, 's> Work<'p, 's> {
                 cached.increment(index, &mut self.sums, &mut self.checks, deadline)?
             }
             Engine::Forward(forward) => {
-                forward.increment(index, &mut self.sums, &mut self.checks.lacking)
+                forward.increment(index, &mut self.sums, &mut self.checks.lacking, deadline)?
             }
             Engine::Radiosity(radiosity) => {
                 let left = self.left.as_ref().expect("radiosity always knows what is left");
+                let deadline = if self.sums.increments > 0 { deadline } else { &NEVER };
                 radiosity.shoot(&mut self.sums, &mut self.checks.sums, left, deadline)?
             }
         };
@@ -296,7 +312,7 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Radiosity(_) => 1,
             _ => BELIEVED_INCREMENTS,
         };
-        self.sums.increments >= fewest
+        self.is_prepared && self.sums.increments >= fewest
     }
 
     /// The limits beyond which readers gather afresh; `None` if readers only interpolate.

@@ -10,7 +10,7 @@ use super::stages::{check, run_on};
 use crate::engine::judge::energy_bound;
 use crate::engine::light::Lighting;
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Deadline, MAX_INCREMENTS};
+use crate::engine::ray::MAX_INCREMENTS;
 use crate::map::Method;
 use crate::scene::Scene;
 use std::ops::Range;
@@ -133,11 +133,11 @@ impl PartMaker<'_, '_, '_> {
         work.begin_at(range.start, end);
         let (identity, stage) = (run.identity.clone(), run.stage);
         let mut part = RunPart { identity, stage, segments: Vec::new() };
-        let deadline = Deadline(run.deadline());
+        let deadline = run.deadline(false);
         let mut next = range.start;
         let mut rays = 0;
         while next < end {
-            let Some(traced) = work.increment(deadline) else { break };
+            let Some(traced) = work.increment(&deadline) else { break };
             (rays, next) = (rays + traced, next + 1);
             run.rays += traced;
             if next == end || next.is_power_of_two() {

@@ -14,7 +14,7 @@ use crate::engine::light::Lighting;
 use crate::engine::method::IrradianceCache;
 use crate::engine::pilot::{PilotRequest, Round, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Deadline, Sums};
+use crate::engine::ray::{Deadline, NEVER, Sums};
 use crate::map::{Accuracy, Audit, IlluminationMap, Method, Provenance};
 use crate::scene::Scene;
 use std::sync::Arc;
@@ -22,6 +22,11 @@ use std::time::{Duration, Instant};
 
 /// The share of the time limit after which elements are not refined further.
 const PILOT_SHARE: f64 = 0.4;
+/// The time that the first increment may take beyond the time limit, or beyond a request to stop. A map is written after
+/// it: both together are to take no more than two seconds, or a tenth of the time.
+const GRACE: Duration = Duration::from_secs(1);
+/// The same as a share of the time.
+const GRACE_SHARE: f64 = 0.05;
 /// The largest number of halvings of the rays of an increment, where time is short.
 const MOST_HALVINGS: u32 = 8;
 /// The least number of stages to advance, since the error of the elements is known with some noise.
@@ -104,13 +109,33 @@ impl<'s, 'r> Run<'s, 'r> {
         answer
     }
 
+    /// Whether the time limit is over, or somebody has asked to stop.
     pub(super) fn out_of_time(&self) -> bool {
-        self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
+        self.request.stop.is_raised()
+            || self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
     }
 
-    /// The end of the time limit, if there is one.
-    pub(super) fn deadline(&self) -> Option<Instant> {
-        self.request.time_limit.and_then(|limit| self.started.checked_add(limit))
+    /// The end of the time limit, or of a share of it. A request to stop ends the time, too.
+    fn deadline_at(&self, share: f64) -> Deadline {
+        // What no clock can count is no limit.
+        let limit = self.request.time_limit.map(|limit| limit.as_secs_f64() * share);
+        let limit = limit.and_then(|s| Duration::try_from_secs_f64(s).ok());
+        let end = limit.and_then(|limit| self.started.checked_add(limit));
+        Deadline { stop: Some(self.request.stop.clone()), ..Deadline::at(end) }
+    }
+
+    /// The end of the time for an increment. The first one may go on for a while after the end: without it there is only
+    /// the light of the pilot.
+    pub(super) fn deadline(&self, is_first: bool) -> Deadline {
+        let end = self.deadline_at(1.0);
+        let grace = self.started.elapsed().mul_f64(GRACE_SHARE).max(GRACE);
+        if is_first { Deadline { grace, ..end } } else { end }
+    }
+
+    /// The end of the time for a pilot, or of a share of it. The elements of a saved run are always completed; otherwise
+    /// its sums would be lost.
+    fn end_of_pilot(&self, share: f64) -> Deadline {
+        if self.stage == self.saved_stage { NEVER.clone() } else { self.deadline_at(share) }
     }
 
     /// Whether the time left is better spent on increments than on finer elements, the next of which take `step_s`.
@@ -150,14 +175,9 @@ impl<'s, 'r> Run<'s, 'r> {
             max_vertices: self.request.most_receivers(),
             most_for_indirect_light: by_hand.max_receivers.map(|most| most as usize),
             least_edge_m: by_hand.min_element_m,
-            deadline: self.end_of_first_survey(),
+            deadline: self.end_of_pilot(PILOT_SHARE),
+            end: self.end_of_pilot(1.0),
         }
-    }
-
-    /// The end of the time for the first survey of a pilot. The elements of a saved run are always completed.
-    fn end_of_first_survey(&self) -> Deadline {
-        let limit = self.request.time_limit.filter(|_| self.stage != self.saved_stage);
-        Deadline(limit.and_then(|limit| self.started.checked_add(limit.mul_f64(PILOT_SHARE))))
     }
 
     /// The result of a pilot, for other runs.
@@ -176,7 +196,7 @@ impl<'s, 'r> Run<'s, 'r> {
             Some(PilotState { rays, result, .. }) => {
                 self.rays_of_pilots = rays;
                 self.unlit = Arc::clone(&result.unlit);
-                Plan { scene: self.scene, lighting, result }
+                Plan { scene: self.scene, lighting, result, end: self.end_of_pilot(1.0) }
             }
             None => self.pilot(lighting, watch),
         }
@@ -312,7 +332,7 @@ impl<'s, 'r> Run<'s, 'r> {
         if self.stopped && work.sums.increments > 0 {
             return false;
         }
-        let rays = work.increment(Deadline(self.deadline()));
+        let rays = work.increment(&self.deadline(work.sums.increments == 0));
         self.rays += rays.unwrap_or(0);
         if rays.is_none() && work.sums.increments == 0 {
             self.cut = true;

@@ -106,6 +106,8 @@ impl<'s> Run<'s, '_> {
         if saved.is_none() && elsewhere.is_none() {
             work = self.affordable(work);
         }
+        // What was not prepared in time serves the light of the pilot alone.
+        self.cut |= plan.end.has_passed();
         if let Some(state) = saved {
             work.restore(state)?;
             self.earlier_rays = state.rays.saturating_sub(self.rays);

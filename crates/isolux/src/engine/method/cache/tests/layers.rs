@@ -4,6 +4,7 @@ use super::super::layer::{Layer, Site};
 use super::super::octree::Octree;
 use super::super::placing::{Place, Radii, serve, typical_radius_m};
 use super::{look, room, site};
+use crate::engine::ray::NEVER;
 use crate::engine::tests::{inward_box, isotropic, painted, rectangle, scene};
 use crate::sampling::Key;
 use crate::units::Rgb;
@@ -148,7 +149,7 @@ fn places_are_served_whatever_their_order() {
     let radii = Radii { least_m: 0.01, most_m: 2.0 };
     let served = |places: Vec<Place>| {
         let mut layer = Layer::new(&scene, 0.4);
-        serve(&scene, &mut layer, places, radii);
+        serve(&scene, &mut layer, places, (radii, &NEVER));
         layer
     };
     let layer = served(places.clone());
