@@ -193,13 +193,14 @@ impl Planned {
         self.tell_of_dark(scene, map);
         let started = Instant::now();
         let a_thread = rayon::current_num_threads() as f64;
-        let clock = clock.ahead_by(self.texels_of_surfaces(scene) * A_COARSE_TEXEL_S / a_thread);
+        let whole = clock.ahead_by(self.texels_of_surfaces(scene) * A_COARSE_TEXEL_S / a_thread);
         let mut meter = Meter::new("lightmap", progress);
         let baked = bake(scene, map, &self.layout, &mut |share| {
             meter.tell(share);
             match () {
                 () if interrupt.is_requested() => Pace::Stop,
-                () if clock.is_up() => Pace::Coarse,
+                () if clock.is_up() => Pace::Late,
+                () if whole.is_up() => Pace::Coarse,
                 () => Pace::Whole,
             }
         });

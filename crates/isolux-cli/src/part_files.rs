@@ -14,6 +14,12 @@ pub(crate) fn read_pilot(path: &Path, max_bytes: u64) -> Result<PilotState, Fail
     read(path, max_bytes, checkpoint::pilot, remedy)
 }
 
+/// Reads the result of a pilot beside the state of its run.
+pub(crate) fn read_kept_pilot(path: &Path, max_bytes: u64) -> Result<PilotState, Failure> {
+    let remedy = "remove it: the same pilot is made again";
+    read(path, max_bytes, checkpoint::pilot, remedy)
+}
+
 /// Reads what is kept of a run, unless it takes more memory than a map may.
 pub(crate) fn whole(path: &Path, max_bytes: u64, remedy: &str) -> Result<Checkpoint, Failure> {
     let bytes = std::fs::metadata(path).map_or(0, |known| known.len());

@@ -125,7 +125,7 @@ pub(crate) fn read(output: &OutputPath, max_bytes: u64) -> Result<Option<RunStat
         .map_err(|what| bad_file(Problems::from(Problem::new(&path, "", what, remedy))))?;
     let path = pilot_beside(output.path());
     let pilot = match path.exists() {
-        true => Some(part_files::read_pilot(&path, max_bytes)?),
+        true => Some(part_files::read_kept_pilot(&path, max_bytes)?),
         false => None,
     };
     // One of an earlier mesh was not replaced yet: the pilot is made again.

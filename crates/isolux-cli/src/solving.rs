@@ -147,7 +147,10 @@ fn tell_of_audit(map: &IlluminationMap) {
 
 /// The least that makes a map may take longer than allowed.
 fn tell_of_time(solution: &Solution, limit: Option<Duration>) {
-    let Some(limit_s) = limit.map(|limit| limit.as_secs_f64()) else { return };
+    // The last of several groups may have had no time at all.
+    let Some(limit_s) = limit.map(|limit| limit.as_secs_f64()).filter(|s| *s > 0.0) else {
+        return;
+    };
     if solution.time_s > MUCH_LONGER * limit_s && solution.map.provenance.increments <= 1 {
         note(
             Note::Info,

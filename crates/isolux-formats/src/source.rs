@@ -37,9 +37,25 @@ pub(crate) fn check_present(path: &Path) -> Result<(), Problem> {
     }
 }
 
-/// Whether bytes begin as Windows begins text in UTF-16.
+/// Whether bytes begin as text in UTF-16.
 pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")
+    units_of(bytes).is_some()
+}
+
+/// A unit of UTF-16 from its bytes.
+type Unit = fn([u8; 2]) -> u16;
+
+/// How the units of UTF-16 are read, and where they begin: after the mark, or at the first of two characters of ASCII.
+fn units_of(bytes: &[u8]) -> Option<(Unit, usize)> {
+    let is_text =
+        |a: u8, b: u8| [a, b].iter().all(|c| matches!(c, b'\t' | b'\n' | b'\r' | b' '..=b'~'));
+    match *bytes {
+        [0xff, 0xfe, ..] => Some((u16::from_le_bytes, 2)),
+        [0xfe, 0xff, ..] => Some((u16::from_be_bytes, 2)),
+        [a, 0, b, 0, ..] if is_text(a, b) => Some((u16::from_le_bytes, 0)),
+        [0, a, 0, b, ..] if is_text(a, b) => Some((u16::from_be_bytes, 0)),
+        _ => None,
+    }
 }
 
 /// Bytes of text without the mark that Windows editors put before UTF-8.
@@ -64,17 +80,9 @@ pub(crate) fn decoded(bytes: Vec<u8>) -> String {
     if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n") } else { text }
 }
 
-/// The text of bytes in UTF-16, without its mark. Without a mark, two characters of ASCII at the beginning tell it.
+/// The text of bytes in UTF-16, without its mark.
 pub(crate) fn from_utf16(bytes: &[u8]) -> Option<String> {
-    let is_text =
-        |a: u8, b: u8| [a, b].iter().all(|c| c.is_ascii_graphic() || c.is_ascii_whitespace());
-    let (unit, mark): (fn([u8; 2]) -> u16, usize) = match *bytes {
-        [0xff, 0xfe, ..] => (u16::from_le_bytes, 2),
-        [0xfe, 0xff, ..] => (u16::from_be_bytes, 2),
-        [a, 0, b, 0, ..] if is_text(a, b) => (u16::from_le_bytes, 0),
-        [0, a, 0, b, ..] if is_text(a, b) => (u16::from_be_bytes, 0),
-        _ => return None,
-    };
+    let (unit, mark) = units_of(bytes)?;
     let (pairs, _) = bytes[mark..].as_chunks();
     let units = pairs.iter().map(|&pair| unit(pair));
     Some(char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect())

@@ -2,7 +2,7 @@
 
 use super::fields::{self, count, number, text, value};
 use super::record::{Hour, Weather, WeatherPlace};
-use crate::counted::shown;
+use crate::counted::{counted, shown};
 use crate::findings::Findings;
 use crate::plain_text::{Line, decode, lines};
 use crate::{Loaded, Problem, Problems};
@@ -144,7 +144,7 @@ fn warn(hours: &[Hour], findings: &mut Findings) {
         |h: &&Hour| h.direct_normal_w_m2.is_none() || h.diffuse_horizontal_w_m2.is_none();
     let empty = hours.iter().filter(is_empty).count();
     if empty > 0 {
-        let what = format!("{empty} hours have no direct or no diffuse irradiance");
-        findings.warning("", what, "their light is not known, and cannot be asked for");
+        let what = counted(empty, "hour has", "hours have") + " no direct or no diffuse irradiance";
+        findings.warning("", what, "the light is not known then, and cannot be asked for");
     }
 }

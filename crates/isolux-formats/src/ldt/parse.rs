@@ -18,6 +18,9 @@ const MAX_INTENSITIES: usize = 1 << 20;
 /// Lamp sets a file may list; the format was made for a few.
 const MAX_LAMP_SETS: i32 = 100;
 
+/// More is the power of a city, W.
+const MOST_WATTS: f64 = 1e9;
+
 /// Reads a photometric file.
 pub fn read(path: &Path) -> Result<Loaded<LdtFile>, Problems> {
     parse(&read_bounded(path, MAX_FILE)?, path)
@@ -179,7 +182,8 @@ fn lamp_set(fields: &mut Fields) -> Result<LampSet, Problem> {
             .number("the flux of the lamps", "0 to 1e12 lm", |v| (0.0..=1e12).contains(&v))?,
         colour: fields.text("the colour of the light")?.into(),
         colour_rendering: fields.text("the colour rendering")?.into(),
-        watts: fields.optional("the power", "a number", |_| true)?,
+        watts: fields
+            .optional("the power", "a number of watts up to 1e9", |w| w.abs() <= MOST_WATTS)?,
     })
 }
 

@@ -9,9 +9,10 @@ use crate::{Loaded, Problem, Problems, source};
 use isolux::lightmap::Lightmap;
 use isolux::map::{IlluminationMap, Provenance};
 use isolux::scene::{Scene, SceneParts, SceneProblem};
-use serde::Deserialize;
 use serde::de::IgnoredAny;
+use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -103,7 +104,10 @@ fn map(
 /// Whether a file is a map and not a plain glTF scene; `false` where it cannot be read.
 pub fn is_map(path: &Path) -> bool {
     json_chunk(path)
-        .is_ok_and(|json| serde_json::from_slice::<Document<Extras<IgnoredAny>>>(&json).is_ok())
+        .and_then(|json| {
+            Ok(serde_json::from_slice::<Document<HashMap<String, IgnoredAny>>>(&json)?)
+        })
+        .is_ok_and(|document| document.extras.contains_key("isolux"))
 }
 
 /// Whether a file was written by [`super::write_vertices`] or [`super::write_texels`] without a map in it: it can be
@@ -158,7 +162,13 @@ struct Document<E> {
 #[derive(Deserialize)]
 struct Extras<T> {
     isolux: T,
+    #[serde(default, deserialize_with = "some")]
     isolux_blake3: Option<String>,
+}
+
+/// What is there, and is no `null`.
+fn some<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
+    String::deserialize(from).map(Some)
 }
 
 /// Which notes of ours a document has.

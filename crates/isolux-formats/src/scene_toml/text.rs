@@ -5,7 +5,7 @@ use std::path::Path;
 
 const MOST_BYTES: u64 = 64 << 20;
 
-/// Reads UTF-8, with or without a byte order mark, or UTF-16 with one.
+/// Reads UTF-8 or UTF-16, with or without a byte order mark.
 pub(super) fn of(path: &Path) -> Result<String, Problem> {
     let bytes = source::read_bytes(path, MOST_BYTES)?;
     if source::is_utf16(&bytes) {

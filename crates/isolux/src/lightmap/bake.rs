@@ -7,7 +7,7 @@ use super::places::{Places, Survey};
 use super::plan::LightmapError;
 use super::seam_report::SeamReport;
 use super::shadow::{self, Direct};
-use super::texels::{Cover, Lightmap};
+use super::texels::{Cover, Lightmap, UNKNOWN_ERROR};
 use super::work::{After, Pace, Work};
 use super::{dilate, stitch};
 use crate::engine::net::{Fineness, Net, Wanted};
@@ -26,7 +26,8 @@ const TRIED: usize = 32;
 /// Reads the map over the part of the surface that each texel covers: direct light at places spread evenly over it,
 /// indirect light, too, where the map does not tell it, each as [`MapReader`] has it. Then fills the borders of charts and makes the two
 /// sides of seams agree. `watch` is told the share of the work that is done, as far as it can be foreseen, nothing where it cannot, and
-/// says how to go on: coarsely, what is left is read as the map interpolates it, and by the fewest shadow rays, which standard errors tell.
+/// says how to go on: coarsely, what is left is read as the map interpolates it, and by the fewest shadow rays, which standard errors tell;
+/// late, without any.
 pub fn bake(
     scene: &Scene,
     map: &IlluminationMap,
@@ -89,6 +90,8 @@ struct Looks {
     found: Vec<Option<Direct>>,
     /// Texels from this one on were looked at coarsely.
     coarse_from: usize,
+    /// The number of texels that got shadow rays then; the others after them got none.
+    glances: usize,
     /// The time that a look takes, s.
     a_look_s: f64,
 }
@@ -150,11 +153,14 @@ fn look(
     let a_look_s = started.elapsed().as_secs_f64() / looks.len().max(1) as f64;
     let unseen = &numbers[looks.len()..];
     let coarse_from = unseen.first().map_or(ground.texels.len(), |&first| first);
-    let glances = work.each_coarsely(unseen, |&number| shadow::glance(places, texel(number)))?;
+    let glances = work.each_unless_late(unseen, |&number| shadow::glance(places, texel(number)))?;
+    let (glances, glanced) = (glances.len(), glances);
+    let rest = &unseen[glances..];
+    let told = work.each_coarsely(rest, |&number| shadow::told(places, texel(number)))?;
     let mut found = vec![None; ground.texels.len()];
-    let all = looks.into_iter().chain(glances);
+    let all = looks.into_iter().chain(glanced).chain(told);
     numbers.iter().zip(all).for_each(|(&number, look)| found[number] = look);
-    Ok(Looks { found, coarse_from, a_look_s })
+    Ok(Looks { found, coarse_from, glances, a_look_s })
 }
 
 /// Indirect light of all texels: as the map tells it, or gathered on a net; where time runs out as the map interpolates it.
@@ -209,7 +215,7 @@ fn direct(
     (ground, indirect, coarse): (&Ground<'_>, &[Option<IndirectReading>], &mut [bool]),
     (looks, work): (Looks, &mut Work<'_>),
 ) -> Result<Vec<Option<Direct>>, LightmapError> {
-    let Looks { mut found, coarse_from, .. } = looks;
+    let Looks { mut found, coarse_from, glances, .. } = looks;
     let numbers: Vec<usize> =
         (0..ground.texels.len()).filter(|&number| indirect[number].is_some()).collect();
     found
@@ -219,7 +225,7 @@ fn direct(
     let (looked, glanced) =
         numbers.split_at(numbers.partition_point(|&number| number < coarse_from));
     work.readings += u64::from(shadow::FEW) * looked.len() as u64;
-    work.readings += u64::from(shadow::FEWEST) * glanced.len() as u64;
+    work.readings += u64::from(shadow::FEWEST) * glanced.len().min(glances) as u64;
     glanced.iter().for_each(|&number| coarse[number] = true);
     let about: Vec<f64> =
         (0..found.len()).map(|number| variance_about(ground, &found, number)).collect();
@@ -269,13 +275,13 @@ fn store(
     let Some((indirect, direct)) = known else { return false };
     let Rgb(lx) = direct.lx + indirect.lx;
     let error_lx = (indirect.error_lx * indirect.error_lx + direct.variance).sqrt();
-    if !lx.iter().chain([&error_lx]).all(|c| (*c as f32).is_finite()) {
+    if !lx.iter().all(|c| (*c as f32).is_finite()) {
         return false;
     }
     let share = fragments.iter().map(|f| f64::from(f.share)).sum::<f64>().min(1.0);
     into.covers[texel] = Cover::Known;
     into.shown_lx[texel] = lx.map(|c| c as f32);
-    into.standard_errors_lx[texel] = error_lx as f32;
+    into.standard_errors_lx[texel] = (error_lx as f32).min(UNKNOWN_ERROR);
     into.coverage[texel] = (share * direct.known) as f32;
     true
 }

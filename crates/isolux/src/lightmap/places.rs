@@ -118,11 +118,25 @@ impl Places<'_> {
 
     /// As the map interpolates it in the middle of the largest part that it knows, be it to be trusted there or not.
     pub(super) fn interpolated(&self, fragments: &[Fragment]) -> Option<IndirectReading> {
+        self.amid_the_largest(fragments, |place| self.reader.interpolated_at(place))
+    }
+
+    /// Direct light as the map interpolates it there.
+    pub(super) fn interpolated_direct(&self, fragments: &[Fragment]) -> Option<Rgb> {
+        self.amid_the_largest(fragments, |place| self.reader.interpolated_direct_at(place))
+    }
+
+    /// What is found in the middle of the largest part that anything is found in.
+    fn amid_the_largest<R>(
+        &self,
+        fragments: &[Fragment],
+        find: impl Fn(PlaceOnSide) -> Option<R>,
+    ) -> Option<R> {
         let mut largest: Vec<&Fragment> = fragments.iter().collect();
         largest.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
         largest.into_iter().find_map(|fragment| {
             let at = cover::polygon(self.layout, fragment).centroid();
-            self.reader.interpolated_at(self.on_side(Place { side: fragment.side, at }))
+            find(self.on_side(Place { side: fragment.side, at }))
         })
     }
 

@@ -36,6 +36,13 @@ pub(super) fn glance(places: &Places<'_>, fragments: &[Fragment]) -> Option<Dire
     mean(places, fragments, (FEWEST, FEWEST_RAYS), places.key(fragments[0].texel).with(0))
 }
 
+/// Direct light as the map interpolates it, where the time is over. Of shadows nothing is known: as if places spread by
+/// its own value.
+pub(super) fn told(places: &Places<'_>, fragments: &[Fragment]) -> Option<Direct> {
+    let lx = places.interpolated_direct(fragments)?;
+    Some(Direct { lx, variance: lx.luminance().powi(2), known: 1.0 })
+}
+
 /// How many places it takes for an error of `goal_lx`, where a first look has this variance; nothing if that look does.
 /// Places are spread evenly: their mean errs by less than those of as many at random, on which this counts.
 pub(super) fn needed(variance: f64, goal_lx: f64) -> Option<u32> {

@@ -186,6 +186,8 @@ fn lookups(lightmap: &Lightmap, seam: &Seam) -> Vec<Pair> {
 fn give_lx(lightmap: &Lightmap, texel: usize) -> f64 {
     let value = Rgb(lightmap.shown_lx[texel].map(f64::from)).luminance().abs();
     let give = match lightmap.texel(texel) {
+        // An error that is not known is as large as the value.
+        Some(known) if known.standard_error_lx.is_infinite() => value,
         Some(known) => known.standard_error_lx.max(SUREST * value),
         None => FILLED * value,
     };

@@ -19,12 +19,15 @@ pub enum Cover {
     Known,
 }
 
+/// The standard error, lx, of texels of a map whose error is not known.
+pub(super) const UNKNOWN_ERROR: f32 = f32::MAX;
+
 /// One texel with a known value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Texel {
     /// Mean illuminance of the surface that it covers, adjusted at seams, lx.
     pub illuminance_lx: Rgb,
-    /// Standard error of its photometric value, lx.
+    /// Standard error of its photometric value, lx; infinite where it is not known.
     pub standard_error_lx: f64,
     /// Share of the texel that known surface covers.
     pub coverage: f64,
@@ -64,7 +67,10 @@ impl Lightmap {
     pub fn texel(&self, index: usize) -> Option<Texel> {
         (self.covers[index] == Cover::Known).then(|| Texel {
             illuminance_lx: Rgb(self.shown_lx[index].map(f64::from)),
-            standard_error_lx: f64::from(self.standard_errors_lx[index]),
+            standard_error_lx: match self.standard_errors_lx[index] {
+                UNKNOWN_ERROR => f64::INFINITY,
+                known => f64::from(known),
+            },
             coverage: f64::from(self.coverage[index]),
         })
     }

@@ -14,6 +14,8 @@ pub enum Pace {
     Whole,
     /// From now on in the cheapest way that gives every texel a value: there is no more time. What has been read stays.
     Coarse,
+    /// The time is over: what is left has the values that the map has between its vertices, without any ray.
+    Late,
     /// Not at all.
     Stop,
 }
@@ -24,6 +26,8 @@ pub(super) struct Work<'a> {
     started: Instant,
     /// Whether there is no more time: whoever has said so once is not asked whether it still holds.
     pub(super) is_coarse: bool,
+    /// Whether the time is over.
+    is_late: bool,
     /// Readings of the map.
     pub(super) readings: u64,
 }
@@ -45,7 +49,7 @@ impl After {
 impl<'a> Work<'a> {
     /// Nothing done yet.
     pub(super) fn new(watch: &'a mut dyn FnMut(f64) -> Pace) -> Self {
-        Self { watch, started: Instant::now(), is_coarse: false, readings: 0 }
+        Self { watch, started: Instant::now(), is_coarse: false, is_late: false, readings: 0 }
     }
 
     /// Does something to each of many, on all threads; results are in their order. They are those of the first of them alone
@@ -57,7 +61,7 @@ impl<'a> Work<'a> {
         after: After,
         one: impl Fn(&T) -> R + Sync,
     ) -> Result<Vec<R>, LightmapError> {
-        self.blocks((all, after), true, one)
+        self.blocks((all, after), |work| work.is_coarse, one)
     }
 
     /// The same for what is so cheap that it is done even where the time has ended.
@@ -66,13 +70,22 @@ impl<'a> Work<'a> {
         all: &[T],
         one: impl Fn(&T) -> R + Sync,
     ) -> Result<Vec<R>, LightmapError> {
-        self.blocks((all, After::default()), false, one)
+        self.blocks((all, After::default()), |_| false, one)
+    }
+
+    /// The same for what is cheap: results are those of the first of them alone where the time is over before all are done.
+    pub(super) fn each_unless_late<T: Sync, R: Send>(
+        &mut self,
+        all: &[T],
+        one: impl Fn(&T) -> R + Sync,
+    ) -> Result<Vec<R>, LightmapError> {
+        self.blocks((all, After::default()), |work| work.is_late, one)
     }
 
     fn blocks<T: Sync, R: Send>(
         &mut self,
         (all, after): (&[T], After),
-        takes_time: bool,
+        is_out_of_time: impl Fn(&Self) -> bool,
         one: impl Fn(&T) -> R + Sync,
     ) -> Result<Vec<R>, LightmapError> {
         let started = Instant::now();
@@ -86,9 +99,10 @@ impl<'a> Work<'a> {
             match (self.watch)(share) {
                 Pace::Whole => {}
                 Pace::Coarse => self.is_coarse = true,
+                Pace::Late => (self.is_coarse, self.is_late) = (true, true),
                 Pace::Stop => return Err(LightmapError::Stopped),
             }
-            if takes_time && self.is_coarse {
+            if is_out_of_time(self) {
                 break;
             }
             done.par_extend(block.par_iter().map(&one));

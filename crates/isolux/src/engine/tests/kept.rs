@@ -6,7 +6,7 @@ use crate::engine::gather::{DirectAtEnds, DirectResidual, Gatherer, Gathering, O
 use crate::engine::light::{Goal, Lighting};
 use crate::engine::ray::NEVER;
 use crate::engine::{MapReader, ProbePoint, SolveRequest, Watch, solve};
-use crate::map::Standing;
+use crate::map::{IlluminationMap, Standing};
 
 const ROOM_M: [f64; 3] = [12.6, 12.6, 3.0];
 const REFLECTANCE: f64 = 0.7;
@@ -101,6 +101,28 @@ fn light_that_vertices_tell_is_left_as_it_is() {
         let over = Over { scene, lighting, elements, standings, direct, bright: None };
         assert!(DirectResidual::of(&over, allowed_lx, (Key::new(1), &NEVER)).is_none());
     }
+}
+
+/// Regression: readers of maps that ended early measured direct light without end, as no error was too small for them.
+#[test]
+fn maps_whose_error_is_not_known_are_read_by_few_rays() {
+    let scene = room(2 * 16);
+    let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+    let known = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let mut unknown = known.clone();
+    unknown.provenance.accuracy = None;
+    let at = ProbePoint {
+        position: Point::new(5.1, 6.2, 0.0),
+        normal: isolux_geometry::Direction::Z.to_normal(),
+    };
+    let read = |map: &IlluminationMap| {
+        let reader = MapReader::new(&scene, map);
+        (reader.probe(at).unwrap(), reader.rays())
+    };
+    let ((known, many), (unknown, few)) = (read(&known), read(&unknown));
+    assert!(few < many, "{few} {many}");
+    assert_eq!(unknown.standard_error_lx, f64::INFINITY);
+    assert!((unknown.illuminance_lx() / known.illuminance_lx() - 1.0).abs() < 0.2);
 }
 
 /// Regression: readings in space told the noise of their own rays alone, and not that of the direct light that all of them read. Walls that

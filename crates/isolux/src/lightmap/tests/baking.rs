@@ -116,6 +116,33 @@ fn who_has_no_time_gets_all_texels_coarsely() {
     };
     let part = bake(&scene, &map, &layout, &mut later).unwrap();
     assert!(part.coarse > 0 && part.covers == whole.covers);
+    // Once it is over, texels have the light that the map has between its vertices.
+    let late = bake(&scene, &map, &layout, &mut |_| Pace::Late).unwrap();
+    assert!(late.coarse > 0 && late.covers == whole.covers && late.readings < coarse.readings);
+    for texel in 0..late.covers.len() {
+        let (Some(whole), Some(late)) = (whole.texel(texel), late.texel(texel)) else { continue };
+        let off = (whole.illuminance_lx - late.illuminance_lx).luminance().abs();
+        assert!(off < 2.0 * late.standard_error_lx, "{texel}: {off} {late:?}");
+    }
+}
+
+/// Regression: they counted as unknown, so that the lightmap of a run that ended early was empty.
+#[test]
+fn texels_of_a_map_whose_error_is_not_known_have_values() {
+    let scene = floor();
+    let mut map = map(&scene, |[x, y, _]| Some(100.0 + 30.0 * x * y));
+    let whole = baked(&scene, &map, 8.0);
+    for value in map.values.iter_mut().flatten() {
+        value.standard_error_lx = f64::INFINITY;
+        value.indirect_standard_error_lx = f64::INFINITY;
+    }
+    let baked = baked(&scene, &map, 8.0);
+    assert_eq!(baked.covers, whole.covers);
+    for texel in (0..baked.covers.len()).filter_map(|texel| baked.texel(texel)) {
+        assert!(texel.standard_error_lx == f64::INFINITY && texel.illuminance_lx.is_finite());
+    }
+    let back = Lightmap::from_arrays(baked.to_arrays(), &scene).unwrap();
+    assert_eq!(back, baked);
 }
 
 #[test]

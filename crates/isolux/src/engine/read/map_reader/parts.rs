@@ -36,6 +36,12 @@ impl MapReader<'_> {
         Some(direct + stored.caustic_lx)
     }
 
+    /// Direct light as the map interpolates it, caustics included; no ray is traced. `None` where the map knows nothing.
+    pub fn interpolated_direct_at(&self, place: PlaceOnSide) -> Option<Rgb> {
+        let stored = self.map.interpolate(place.triangle, place.back, place.uv[0], place.uv[1])?;
+        Some(stored.direct_lx)
+    }
+
     /// Indirect light as the map gives it without gathering. `None` where the map knows nothing.
     pub fn told_at(&self, place: PlaceOnSide, allowance: Allowance) -> Option<Told> {
         let surface = SurfacePoint::on_side(self.scene, place);

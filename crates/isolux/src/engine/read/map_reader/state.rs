@@ -86,7 +86,8 @@ pub(super) struct Unseen {
     pub(super) discretization_lx: f64,
     /// The bias that all of the map shares.
     pub(super) bias_lx: f64,
-    /// The error of the whole map.
+    /// The error of the whole map; infinite where it is not known. The fewest rays are then enough, as nothing is told of
+    /// their noise.
     pub(super) reached_lx: f64,
     /// The accuracy goal for direct light in readings.
     pub(super) of_direct: Goal,
@@ -170,7 +171,10 @@ impl<'a> MapReader<'a> {
 
     /// The noise goal of indirect light in readings, lx: a share of the error of the map times a local factor.
     pub(super) fn noise_goal_lx(&self, part: f64) -> f64 {
-        FRESH_NOISE * part * self.unseen.reached_lx
+        match self.unseen.reached_lx {
+            f64::INFINITY => f64::INFINITY,
+            reached_lx => FRESH_NOISE * part * reached_lx,
+        }
     }
 
     /// The gatherer with the control variate of its place.
@@ -285,7 +289,7 @@ impl Unseen {
             reference_lx,
             discretization_lx: share(Accuracy::discretization_beside_caustics),
             bias_lx: share(|a| a.bias),
-            reached_lx: share(|a| a.reached),
+            reached_lx: accuracy.map_or(f64::INFINITY, |a| a.reached * reference_lx),
             of_direct: Goal::reading(map.provenance.accuracy_target.unwrap_or(f64::INFINITY)),
         }
     }
@@ -295,9 +299,10 @@ impl Unseen {
 /// surface, but at most twice the mean over the lit area. A small bright surface is part of both.
 pub fn reference_lx(map: &IlluminationMap) -> f64 {
     let mut light = Light::default();
+    let ambient_lx = map.ambient_lx().luminance();
     for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
         let Some(value) = value else { continue };
-        light.add(vertex.area_m2, value.illuminance_lx());
+        light.add(vertex.area_m2, value.illuminance_lx() + ambient_lx);
     }
     light.reference_lx()
 }

@@ -17,7 +17,7 @@ use crate::engine::method::{
 };
 use crate::engine::particle::{Squared, element_parts, flights};
 use crate::engine::plan::Plan;
-use crate::engine::ray::{Accumulator, Deadline, Estimate, NEVER, Noise, Sample};
+use crate::engine::ray::{Accumulator, Deadline, Estimate, Noise, Sample};
 use crate::map::{Accuracy, FilterReport, Fresh, Method, Unshot, VertexLight};
 use crate::sampling::Key;
 use crate::units::Rgb;
@@ -45,8 +45,6 @@ pub(crate) struct Work<'p, 's> {
     goal: Option<f64>,
     /// The number of the first increment: zero, but for parts of runs.
     first: u64,
-    /// Whether there was time for all preparations. If not, increments serve nothing, and errors are not known.
-    is_prepared: bool,
 }
 
 enum Engine<'p, 's> {
@@ -54,6 +52,8 @@ enum Engine<'p, 's> {
     Forward(Forward<'p, 's>),
     Cache(Box<Cached<'p, 's>>),
     Radiosity(Box<Radiosity<'p, 's>>),
+    /// None: there was no time for one. The map has the light of the pilot.
+    OfPilot,
 }
 
 impl<'p, 's> Work<'p, 's> {
@@ -62,7 +62,7 @@ impl<'p, 's> Work<'p, 's> {
         match &mut self.engine {
             Engine::Hybrid(hybrid) => Some(hybrid.pace_s()),
             Engine::Cache(cached) => Some(cached.pace_s()),
-            Engine::Forward(_) | Engine::Radiosity(_) => None,
+            Engine::Forward(_) | Engine::Radiosity(_) | Engine::OfPilot => None,
         }
     }
 
@@ -88,11 +88,13 @@ impl<'p, 's> Work<'p, 's> {
         let rays = (wanted.min(most) >> halvings).max(1);
         let key = Key::new(request.seed).with(3);
         let points = match request.method {
+            _ if plan.end.has_passed() => Vec::new(),
             Method::Hybrid | Method::Cache => check_points::draw(plan, rays, key),
             Method::Radiosity => check_points::draw_for_map(plan, rays, key),
             Method::Forward => Vec::new(),
         };
         let engine = match request.method {
+            _ if plan.end.has_passed() => Engine::OfPilot,
             Method::Hybrid => {
                 let (mean, particles) = rays_and_particles(plan, noise, goal, most);
                 let of = IncrementSize { rays: mean, halvings, particles, goal };
@@ -111,6 +113,8 @@ impl<'p, 's> Work<'p, 's> {
                 Engine::Radiosity(Box::new(Radiosity::new(plan, &points, settings, target, seed)))
             }
         };
+        // What was not prepared in time serves nothing.
+        let engine = if plan.end.has_passed() { Engine::OfPilot } else { engine };
         let (sums, checks) = no_sums(plan, &engine, points);
         let given_up = Accumulator::new(1, reference_of(plan, &engine));
         let stops_at_unshot = request.radiosity.unshot.is_some();
@@ -126,7 +130,6 @@ impl<'p, 's> Work<'p, 's> {
             stops_at_unshot,
             goal,
             first: 0,
-            is_prepared: !plan.end.has_passed(),
         }
         .in_units_of_light()
         .looked_at()
@@ -155,12 +158,8 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// Adds one increment and returns the number of rays traced; `None` if its deadline passes before. The first shot of
-    /// radiosity is always completed.
+    /// Adds one increment and returns the number of rays traced; `None` if its deadline passes before.
     pub(crate) fn increment(&mut self, deadline: &Deadline) -> Option<u64> {
-        if !(self.is_prepared || matches!(self.engine, Engine::Radiosity(_))) {
-            return None;
-        }
         let index = self.first + self.sums.increments;
         let effort = match &mut self.engine {
             Engine::Hybrid(hybrid) => {
@@ -178,9 +177,9 @@ impl<'p, 's> Work<'p, 's> {
             }
             Engine::Radiosity(radiosity) => {
                 let left = self.left.as_ref().expect("radiosity always knows what is left");
-                let deadline = if self.sums.increments > 0 { deadline } else { &NEVER };
                 radiosity.shoot(&mut self.sums, &mut self.checks.sums, left, deadline)?
             }
+            Engine::OfPilot => return None,
         };
         self.look_what_is_left();
         let direct = Rgb::grey(effort.given_up_lx);
@@ -190,6 +189,10 @@ impl<'p, 's> Work<'p, 's> {
 
     /// Takes the light of the pilot for the first increment. Nothing is known of its error.
     pub(crate) fn take_light_of_pilot(&mut self) {
+        self.engine = Engine::OfPilot;
+        self.left = None;
+        let points = std::mem::take(&mut self.checks.points);
+        (self.sums, self.checks) = no_sums(self.plan, &self.engine, points);
         let indirect = self.plan.prolongate(&self.plan.light.guess);
         let light = self.plan.light.direct.iter().zip(indirect);
         let sample =
@@ -236,6 +239,7 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Forward(_) => {
                 self.with_caustics(tally::errors(self.plan, &self.sums), noise_is)
             }
+            Engine::OfPilot => InterpolationErrors::default(),
             Engine::Radiosity(radiosity) => {
                 let errors = radiosity.errors(&self.sums, &self.checks.points, self.ambient_lx());
                 let squared = self.plan.errors.caustics_lx.powi(2);
@@ -251,7 +255,7 @@ impl<'p, 's> Work<'p, 's> {
         match &self.engine {
             Engine::Hybrid(hybrid) => hybrid.noise_of_direct_lx2(),
             Engine::Cache(cached) => cached.noise_of_direct_lx2(),
-            Engine::Forward(_) | Engine::Radiosity(_) => 0.0,
+            Engine::Forward(_) | Engine::Radiosity(_) | Engine::OfPilot => 0.0,
         }
     }
 
@@ -312,7 +316,7 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Radiosity(_) => 1,
             _ => BELIEVED_INCREMENTS,
         };
-        self.is_prepared && self.sums.increments >= fewest
+        self.sums.increments >= fewest
     }
 
     /// The limits beyond which readers gather afresh; `None` if readers only interpolate.
@@ -565,7 +569,7 @@ fn no_sums(plan: &Plan, engine: &Engine, points: Vec<Check>) -> (Accumulator, Ch
         Engine::Radiosity(radiosity) => (radiosity.patches(), 0),
         Engine::Cache(_) => (check_points::places(&points, false), parts),
         Engine::Hybrid(_) => (check_points::places(&points, true), parts),
-        Engine::Forward(_) => (0, parts),
+        Engine::Forward(_) | Engine::OfPilot => (0, parts),
     };
     let sums_of = |places: usize| Accumulator::new(places, reference_of(plan, engine));
     let sums = sums_of(plan.mesh.elements.vertices().len());
