@@ -63,7 +63,7 @@ impl Pilot<'_> {
             let black = vec![Rgb::BLACK; gatherers.len()];
             let waiting = self.mesh.carriers.waiting();
             self.indirect.lx =
-                operator.solve(&black, &black, &waiting, (PILOT_TOLERANCE, &self.end));
+                operator.solve(&black, &black, &waiting, (PILOT_TOLERANCE, &self.reflects_until));
             if !self.near.known.contains(&true) {
                 // No vertex has light: places that are not closed in count as dark, not as hidden.
                 self.near.known = operator.open();

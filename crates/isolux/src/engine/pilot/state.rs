@@ -22,7 +22,7 @@ use isolux_geometry::Point;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The number of vertices of the first mesh, unless the scene has more.
 const FIRST_VERTICES: f64 = 700.0;
@@ -83,6 +83,8 @@ pub(super) struct Pilot<'s> {
     pub(super) started: Instant,
     /// The end of the time. What is not measured by then is left unknown.
     pub(super) end: Deadline,
+    /// The end of the time for the reflections of light: without them a map is too dark.
+    pub(super) reflects_until: Deadline,
     /// Whether there was time for all steps of the pilot.
     pub(super) is_whole: bool,
 }
@@ -291,6 +293,7 @@ impl<'s> Pilot<'s> {
             traced,
             started,
             end: request.end.clone(),
+            reflects_until: request.end.clone().with_grace(Duration::ZERO),
             is_whole: true,
         }
     }

@@ -84,7 +84,8 @@ impl Pilot<'_> {
         self.traced += operator.rays;
         let black = vec![Rgb::BLACK; gatherers.len()];
         let waiting = self.mesh.carriers.waiting();
-        self.indirect.lx = operator.solve(&black, &black, &waiting, (PILOT_TOLERANCE, &self.end));
+        self.indirect.lx =
+            operator.solve(&black, &black, &waiting, (PILOT_TOLERANCE, &self.reflects_until));
     }
 
     /// The noise at some places with the control variate, as a share of the noise without it; `None` if there is no

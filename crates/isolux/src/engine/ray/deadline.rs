@@ -27,6 +27,10 @@ impl PartialEq for StopFlag {
     }
 }
 
+/// The time that what gives a map its light may take beyond the end: the first increment, the reflections of the pilot's light. A map
+/// is written after it; both together are to take no more than two seconds.
+pub(crate) const GRACE: Duration = Duration::from_secs(1);
+
 /// The end of the time allowed; the pilot and increments check it while they run. The default is no limit.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Deadline {
@@ -57,6 +61,11 @@ impl Deadline {
         let is_over =
             |end: &Instant| now.saturating_duration_since(*end) >= self.grace && now >= *end;
         self.end.iter().chain(stop).any(is_over)
+    }
+
+    /// The deadline with [`GRACE`], or more if asked for.
+    pub(crate) fn with_grace(self, least: Duration) -> Self {
+        Self { grace: GRACE.max(least), ..self }
     }
 
     /// The deadline that leaves so much time for what comes after it.

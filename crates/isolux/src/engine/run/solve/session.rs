@@ -22,10 +22,7 @@ use std::time::{Duration, Instant};
 
 /// The share of the time limit after which elements are not refined further.
 const PILOT_SHARE: f64 = 0.4;
-/// The time that the first increment may take beyond the time limit, or beyond a request to stop. A map is written after
-/// it: both together are to take no more than two seconds, or a tenth of the time.
-const GRACE: Duration = Duration::from_secs(1);
-/// The same as a share of the time.
+/// The time that the first increment may take beyond the time limit, or beyond a request to stop, as a share of the time.
 const GRACE_SHARE: f64 = 0.05;
 /// The largest number of halvings of the rays of an increment, where time is short.
 const MOST_HALVINGS: u32 = 8;
@@ -128,8 +125,8 @@ impl<'s, 'r> Run<'s, 'r> {
     /// the light of the pilot.
     pub(super) fn deadline(&self, is_first: bool) -> Deadline {
         let end = self.deadline_at(1.0);
-        let grace = self.started.elapsed().mul_f64(GRACE_SHARE).max(GRACE);
-        if is_first { Deadline { grace, ..end } } else { end }
+        let grace = self.started.elapsed().mul_f64(GRACE_SHARE);
+        if is_first { end.with_grace(grace) } else { end }
     }
 
     /// The end of the time for a pilot, or of a share of it. The elements of a saved run are always completed; otherwise
