@@ -179,13 +179,19 @@ struct Marks {
     isolux_lightmap: Option<IgnoredAny>,
 }
 
+/// What of `extras` tells the version.
+#[derive(Deserialize)]
+struct Versioned {
+    isolux: Version,
+}
+
 #[derive(Deserialize)]
 struct Version {
     format_version: u32,
 }
 
 fn check_version(path: &Path, json: &[u8]) -> Result<(), Problem> {
-    let version = serde_json::from_slice::<Document<Extras<Version>>>(json).map_err(|_| {
+    let version = serde_json::from_slice::<Document<Versioned>>(json).map_err(|_| {
         let what = "is missing: this is no illumination map";
         Problem::new(path, "extras.isolux", what, NOT_A_MAP_REMEDY)
     })?;

@@ -151,6 +151,12 @@ fn no_digit_of_the_record_can_change_unnoticed() {
     let mut before = json;
     before["extras"].as_object_mut().unwrap().remove("isolux_blake3");
     read_bytes(&container(&before, rest)).unwrap();
+    // One that is no text is none of before.
+    for odd in [Value::Null, json!(12)] {
+        before["extras"]["isolux_blake3"] = odd;
+        let message = refused(&container(&before, rest));
+        assert!(message.contains("JSON chunk: invalid type"), "{message}");
+    }
 }
 
 #[test]
