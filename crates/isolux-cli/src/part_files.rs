@@ -10,14 +10,12 @@ use std::path::Path;
 
 /// Reads the result of a pilot.
 pub(crate) fn read_pilot(path: &Path, max_bytes: u64) -> Result<PilotState, Failure> {
-    let remedy = "leave it out: the same pilot is made again";
-    read(path, max_bytes, checkpoint::pilot, remedy)
+    read(path, max_bytes, checkpoint::pilot, "leave it out: the same pilot is made again")
 }
 
 /// Reads the result of a pilot beside the state of its run.
 pub(crate) fn read_kept_pilot(path: &Path, max_bytes: u64) -> Result<PilotState, Failure> {
-    let remedy = "remove it: the same pilot is made again";
-    read(path, max_bytes, checkpoint::pilot, remedy)
+    read(path, max_bytes, checkpoint::pilot, "remove it: the same pilot is made again")
 }
 
 /// Reads what is kept of a run, unless it takes more memory than a map may.

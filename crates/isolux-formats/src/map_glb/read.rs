@@ -103,21 +103,22 @@ fn map(
 
 /// Whether a file is a map and not a plain glTF scene; `false` where it cannot be read.
 pub fn is_map(path: &Path) -> bool {
-    json_chunk(path)
-        .and_then(|json| {
-            Ok(serde_json::from_slice::<Document<HashMap<String, IgnoredAny>>>(&json)?)
-        })
-        .is_ok_and(|document| document.extras.contains_key("isolux"))
+    notes(path).is_some_and(|notes| notes.contains_key("isolux"))
 }
 
 /// Whether a file was written by [`super::write_vertices`] or [`super::write_texels`] without a map in it: it can be
 /// made again from its map.
 pub fn is_export(path: &Path) -> bool {
-    let marks = |json: Vec<u8>| serde_json::from_slice::<Document<Marks>>(&json).ok();
-    json_chunk(path).ok().and_then(marks).is_some_and(|document| {
-        let Marks { isolux, isolux_vertices, isolux_lightmap } = document.extras;
-        isolux.is_none() && (isolux_vertices.is_some() || isolux_lightmap.is_some())
+    let has = |notes: &HashMap<String, IgnoredAny>, name: &str| notes.contains_key(name);
+    notes(path).is_some_and(|notes| {
+        !has(&notes, "isolux") && (has(&notes, "isolux_vertices") || has(&notes, "isolux_lightmap"))
     })
+}
+
+/// What a file has in `extras`, by name, be it there twice or not.
+fn notes(path: &Path) -> Option<HashMap<String, IgnoredAny>> {
+    let json = json_chunk(path).ok()?;
+    serde_json::from_slice(&json).ok().map(|document: Document<_>| document.extras)
 }
 
 fn json_chunk(path: &Path) -> io::Result<Vec<u8>> {
@@ -169,14 +170,6 @@ struct Extras<T> {
 /// What is there, and is no `null`.
 fn some<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String>, D::Error> {
     String::deserialize(from).map(Some)
-}
-
-/// Which notes of ours a document has.
-#[derive(Deserialize)]
-struct Marks {
-    isolux: Option<IgnoredAny>,
-    isolux_vertices: Option<IgnoredAny>,
-    isolux_lightmap: Option<IgnoredAny>,
 }
 
 /// What of `extras` tells the version.

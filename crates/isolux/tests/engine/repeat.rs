@@ -3,11 +3,12 @@
 use crate::rooms::{
     clear_glass, glowing, inward_box, lamp, outward_box, painted, rectangle, scene,
 };
-use crate::runs::{METHODS, assert_valid, coarse, run};
+use crate::runs::{METHODS, assert_valid, coarse, go_on, run};
 use isolux::engine::{
-    Progress, SoFar, Solution, SolveRequest, Stage, StopFlag, Watch, solve, solve_looked_at,
+    PilotState, Progress, SoFar, Solution, SolveRequest, Stage, StopFlag, Watch, solve,
+    solve_elsewhere, solve_looked_at,
 };
-use isolux::map::IlluminationMap;
+use isolux::map::{IlluminationMap, Method};
 use isolux::scene::{Finish, Gloss, Material, Scene};
 use isolux::units::Rgb;
 use std::time::Duration;
@@ -123,14 +124,24 @@ fn a_run_asked_to_stop_at_any_moment_is_a_map_and_goes_on_to_the_same_bits() {
             assert!(part.map.provenance.increments >= 1, "{name}");
             let is_told = part.map.provenance.accuracy.is_some();
             assert!(!is_told || part.state.increments > 0, "{name}: nothing is known of a pilot");
-            let goes_on = &mut |p: &Progress| {
-                let is_enough = p.stage == Stage::Increments && p.increments >= 12;
-                if is_enough { Watch::Stop } else { Watch::Continue }
-            };
-            let resumed = solve(&scene, &request, Some(&part.state), goes_on).expect("the same");
+            let resumed = go_on(&scene, &request, Some(&part.state), 12).expect("the same");
             assert_eq!(written(&resumed.map), written(&whole.map), "{name}");
         }
     }
+}
+
+/// Regression: increments made elsewhere were added to a run that had no time to prepare for any, and refused.
+#[test]
+fn a_run_asked_to_stop_before_increments_made_elsewhere_is_a_map() {
+    let scene = everything();
+    let request = coarse(Method::Hybrid, 250);
+    request.stop.raise();
+    let mut elsewhere = |_: &PilotState, _: u64| panic!("no increment is wanted");
+    let solution =
+        solve_elsewhere(&scene, &request, None, &mut elsewhere, &mut |_, _| Watch::Continue);
+    let map = solution.expect("the scene has light").map;
+    assert_valid("of the pilot", &map);
+    assert!(map.provenance.accuracy.is_none() && !map.provenance.complete);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Runs that end.
 
-use isolux::engine::{Solution, SolveError, SolveRequest, Stage, Watch, solve};
+use isolux::engine::{RunState, Solution, SolveError, SolveRequest, Stage, Watch, solve};
 use isolux::map::{IlluminationMap, Method};
 use isolux::scene::Scene;
 use std::sync::mpsc::channel;
@@ -29,7 +29,17 @@ pub(crate) fn run(
     request: &SolveRequest,
     increments: u64,
 ) -> Result<Solution, SolveError> {
-    solve(scene, request, None, &mut |progress| {
+    go_on(scene, request, None, increments)
+}
+
+/// Solves from a state on, with so many increments at most.
+pub(crate) fn go_on(
+    scene: &Scene,
+    request: &SolveRequest,
+    from: Option<&RunState>,
+    increments: u64,
+) -> Result<Solution, SolveError> {
+    solve(scene, request, from, &mut |progress| {
         let enough = progress.stage == Stage::Increments && progress.increments >= increments;
         if enough { Watch::Stop } else { Watch::Continue }
     })

@@ -29,7 +29,7 @@ impl PartialEq for StopFlag {
 
 /// The time that what gives a map its light may take beyond the end: the first increment, the reflections of the pilot's light. A map
 /// is written after it; both together are to take no more than two seconds.
-pub(crate) const GRACE: Duration = Duration::from_secs(1);
+const GRACE: Duration = Duration::from_secs(1);
 
 /// The end of the time allowed; the pilot and increments check it while they run. The default is no limit.
 #[derive(Clone, Debug, Default)]
@@ -59,7 +59,7 @@ impl Deadline {
         }
         let now = Instant::now();
         let is_over =
-            |end: &Instant| now.saturating_duration_since(*end) >= self.grace && now >= *end;
+            |end: &Instant| now.checked_duration_since(*end).is_some_and(|late| late >= self.grace);
         self.end.iter().chain(stop).any(is_over)
     }
 

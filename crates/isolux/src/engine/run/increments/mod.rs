@@ -56,6 +56,44 @@ enum Engine<'p, 's> {
     OfPilot,
 }
 
+impl<'p, 's> Engine<'p, 's> {
+    /// The check points of a map, and the engine of a method. An increment has `rays` rays of a receiver, of which memory
+    /// allows `most`.
+    fn prepared(
+        plan: &'p Plan<'s>,
+        request: &SolveRequest,
+        (target, noise): (f64, f64),
+        (halvings, goal, [rays, most]): (u32, f64, [u32; 2]),
+    ) -> (Vec<Check>, Self) {
+        let (key, seed) = (Key::new(request.seed).with(3), request.seed);
+        let points = match request.method {
+            Method::Hybrid | Method::Cache => check_points::draw(plan, rays, key),
+            Method::Radiosity => check_points::draw_for_map(plan, rays, key),
+            Method::Forward => Vec::new(),
+        };
+        let engine = match request.method {
+            Method::Hybrid => {
+                let (mean, particles) = rays_and_particles(plan, noise, goal, most);
+                let of = IncrementSize { rays: mean, halvings, particles, goal };
+                Self::Hybrid(Hybrid::new(plan, &points, of, most, seed))
+            }
+            Method::Cache => {
+                let wanted = (&request.cache, target);
+                Self::Cache(Box::new(Cached::new(plan, &points, wanted, rays, seed)))
+            }
+            Method::Forward => {
+                let emission = Emission::new(plan.scene).expect("a scene without light is refused");
+                Self::Forward(Forward::new(plan, emission, target, seed))
+            }
+            Method::Radiosity => {
+                let settings = &request.radiosity;
+                Self::Radiosity(Box::new(Radiosity::new(plan, &points, settings, target, seed)))
+            }
+        };
+        (points, engine)
+    }
+}
+
 impl<'p, 's> Work<'p, 's> {
     /// The duration of an increment, s; `None` if it is unknown before the first one.
     pub(crate) fn pace_s(&mut self) -> Option<f64> {
@@ -86,35 +124,12 @@ impl<'p, 's> Work<'p, 's> {
         let wanted = wanted.unwrap_or_else(by_noise);
         let most = most_rays(plan, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
-        let key = Key::new(request.seed).with(3);
-        let points = match request.method {
-            _ if plan.end.has_passed() => Vec::new(),
-            Method::Hybrid | Method::Cache => check_points::draw(plan, rays, key),
-            Method::Radiosity => check_points::draw_for_map(plan, rays, key),
-            Method::Forward => Vec::new(),
-        };
-        let engine = match request.method {
-            _ if plan.end.has_passed() => Engine::OfPilot,
-            Method::Hybrid => {
-                let (mean, particles) = rays_and_particles(plan, noise, goal, most);
-                let of = IncrementSize { rays: mean, halvings, particles, goal };
-                Engine::Hybrid(Hybrid::new(plan, &points, of, most, request.seed))
-            }
-            Method::Cache => {
-                let wanted = (&request.cache, target);
-                Engine::Cache(Box::new(Cached::new(plan, &points, wanted, rays, request.seed)))
-            }
-            Method::Forward => {
-                let emission = Emission::new(plan.scene).expect("a scene without light is refused");
-                Engine::Forward(Forward::new(plan, emission, target, request.seed))
-            }
-            Method::Radiosity => {
-                let (settings, seed) = (&request.radiosity, request.seed);
-                Engine::Radiosity(Box::new(Radiosity::new(plan, &points, settings, target, seed)))
-            }
-        };
+        let size = (halvings, goal, [rays, most]);
+        let prepare = || Engine::prepared(plan, request, (target, noise), size);
+        let is_in_time = || !plan.end.has_passed();
         // What was not prepared in time serves nothing.
-        let engine = if plan.end.has_passed() { Engine::OfPilot } else { engine };
+        let prepared = is_in_time().then(prepare).filter(|_| is_in_time());
+        let (points, engine) = prepared.unwrap_or((Vec::new(), Engine::OfPilot));
         let (sums, checks) = no_sums(plan, &engine, points);
         let given_up = Accumulator::new(1, reference_of(plan, &engine));
         let stops_at_unshot = request.radiosity.unshot.is_some();
@@ -185,6 +200,11 @@ impl<'p, 's> Work<'p, 's> {
         let direct = Rgb::grey(effort.given_up_lx);
         self.given_up.add(std::iter::once(Sample { direct, ..Sample::default() }));
         Some(effort.rays)
+    }
+
+    /// Whether there was time to prepare increments.
+    pub(crate) const fn is_prepared(&self) -> bool {
+        !matches!(self.engine, Engine::OfPilot)
     }
 
     /// Takes the light of the pilot for the first increment. Nothing is known of its error.

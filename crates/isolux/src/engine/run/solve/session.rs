@@ -331,11 +331,18 @@ impl<'s, 'r> Run<'s, 'r> {
         }
         let rays = work.increment(&self.deadline(work.sums.increments == 0));
         self.rays += rays.unwrap_or(0);
-        if rays.is_none() && work.sums.increments == 0 {
+        if rays.is_none() {
+            self.rest_on_pilot(work);
+        }
+        rays.is_some()
+    }
+
+    /// Takes the light of the pilot where there is no increment and no time for one. No other run continues from it.
+    pub(super) fn rest_on_pilot(&mut self, work: &mut Work) {
+        if work.sums.increments == 0 {
             self.cut = true;
             work.take_light_of_pilot();
         }
-        rays.is_some()
     }
 
     pub(super) fn report(

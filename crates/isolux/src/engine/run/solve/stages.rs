@@ -106,8 +106,6 @@ impl<'s> Run<'s, '_> {
         if saved.is_none() && elsewhere.is_none() {
             work = self.affordable(work);
         }
-        // What was not prepared in time serves the light of the pilot alone.
-        self.cut |= plan.end.has_passed();
         if let Some(state) = saved {
             work.restore(state)?;
             self.earlier_rays = state.rays.saturating_sub(self.rays);
@@ -165,11 +163,12 @@ impl<'s> Run<'s, '_> {
         if self.stopped && count > 0 {
             return Ok(false);
         }
-        let Some(part) = elsewhere(&self.pilot_state(work.plan), count)? else {
-            if count == 0 {
-                self.cut = true;
-                work.take_light_of_pilot();
-            }
+        let part = match work.is_prepared() {
+            true => elsewhere(&self.pilot_state(work.plan), count)?,
+            false => None,
+        };
+        let Some(part) = part else {
+            self.rest_on_pilot(work);
             return Ok(false);
         };
         self.identity.check(&part.identity)?;
