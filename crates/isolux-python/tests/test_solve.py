@@ -69,10 +69,11 @@ def test_a_second_ctrl_c_is_an_exception() -> None:
 
 
 def test_time_limits_and_progress(cube: isolux.Scene, capfd: pytest.CaptureFixture[str]) -> None:
-    found = isolux.solve(cube, accuracy=1e-4, time_limit=5)
+    # Of hours, on any machine.
+    found = isolux.solve(cube, accuracy=1e-6, time_limit=5)
     assert not found.complete
     # Not on a terminal: a line now and then.
-    assert "target 0.010 %" in capfd.readouterr().err
+    assert "target 0.00010 %" in capfd.readouterr().err
 
 
 def test_other_threads_go_on(cube: isolux.Scene) -> None:
