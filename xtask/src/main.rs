@@ -49,7 +49,7 @@ cargo xtask loader bevy      of --all, the loader of Bevy, built of its crates, 
 cargo xtask loader blender   of --all, the add-on of Blender in Blender (a download of 400 MB), beside closed forms, probe and Cycles
 cargo xtask sanitize      of --all, the ray kernel under the address sanitizer
 cargo xtask reliability   faults injected into runs of the command: kills, full disks, damaged states; are the bytes the same?
-                          [--only kills|disk|foreign|twice|same|hostile] [--seed 1] [--count 70]
+                          [--only kills|disk|foreign|twice|same|sizes|hostile] [--seed 1] [--count 70]
                           [--isolux PATH] [--other PATH] [--arm PATH] [--save]
 cargo xtask sbom          what is linked into the command, as CycloneDX
 cargo xtask consumers     light in Blender, Godot and Bevy, by hand

@@ -17,15 +17,29 @@ const BYTES_IN_PILOT: u64 = 1900;
 const ALIKE: f64 = 0.8;
 /// How long a pilot may look, its first survey aside, before it is asked what it has seen.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// How long the first survey may take in an audit of a scene: for each of its triangles about what a survey takes in a hall, and no
+/// longer than somebody waits.
+const SURVEY_OF_A_TRIANGLE: Duration = Duration::from_micros(20);
+const LONGEST_SURVEY: Duration = Duration::from_secs(9);
+
+/// Whether a pilot's first survey may take as long as it does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Survey {
+    /// It may: its result was asked for.
+    Whole,
+    /// It may not, and then less is known.
+    Short,
+}
 
 /// Sizes of a run.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Estimate {
-    /// Vertices of the elements, at most and at least: how far elements are refined is known late.
-    pub receivers: u64,
+    /// Vertices of the elements, at most and at least: how far elements are refined is known late. Without a survey only
+    /// the least is.
+    pub receivers: Option<u64>,
     pub receivers_least: u64,
     /// Memory for them, bytes.
-    pub memory_bytes: u64,
+    pub memory_bytes: Option<u64>,
     pub memory_least_bytes: u64,
     /// Time to the accuracy asked for on this machine, s, with an interval of 90 %; nothing where the
     /// method cannot tell.
@@ -37,7 +51,8 @@ pub(crate) struct Estimate {
 }
 
 /// From the least to the most, or about so much where they differ by little.
-fn span(least: u64, most: u64, show: &dyn Fn(u64) -> String) -> String {
+fn span(least: u64, most: Option<u64>, show: &dyn Fn(u64) -> String) -> String {
+    let Some(most) = most else { return format!("at least {}", show(least)) };
     if least as f64 >= ALIKE * most as f64 {
         return format!("about {}", show(most));
     }
@@ -46,11 +61,18 @@ fn span(least: u64, most: u64, show: &dyn Fn(u64) -> String) -> String {
 
 impl Estimate {
     /// From the beginning of the run itself.
-    pub(crate) fn of(scene: &Scene, request: &SolveRequest) -> Result<Self, SolveError> {
+    pub(crate) fn of(
+        scene: &Scene,
+        request: &SolveRequest,
+        survey: Survey,
+    ) -> Result<Self, SolveError> {
         // The scene, and what its reader needed beside.
         let taken = isolux_memory::peak_bytes();
-        let seen = foresee(scene, request, PATIENCE)?;
-        let receivers_least = seen.receivers_so_far.min(seen.receivers);
+        let at_most = (survey == Survey::Short).then(|| {
+            (PATIENCE + SURVEY_OF_A_TRIANGLE * scene.triangle_count()).min(LONGEST_SURVEY)
+        });
+        let seen = foresee(scene, request, PATIENCE, at_most)?;
+        let receivers_least = seen.receivers_so_far.min(seen.receivers.unwrap_or(u64::MAX));
         let of_pilot = isolux_memory::peak_bytes() - taken;
         let beside = taken + of_pilot.saturating_sub(seen.receivers_so_far * BYTES_IN_PILOT);
         let memory_bytes =
@@ -60,7 +82,7 @@ impl Estimate {
         Ok(Self {
             receivers: seen.receivers,
             receivers_least,
-            memory_bytes: memory_bytes(seen.receivers, BYTES_WITH_MANY_RAYS),
+            memory_bytes: seen.receivers.map(|most| memory_bytes(most, BYTES_WITH_MANY_RAYS)),
             memory_least_bytes: memory_bytes(receivers_least, BYTES_WITH_FEW_RAYS),
             time_s: seen.finish.map(|p| limited(p.finish_s)),
             time_earliest_s: seen.finish.map(|p| limited(p.earliest_s)),
@@ -75,11 +97,15 @@ impl Estimate {
     /// Of runs one after another: the memory of the largest, the time of all.
     pub(crate) fn one_after_another(runs: &[Self]) -> Self {
         let most = |of: fn(&Self) -> u64| runs.iter().map(of).max().unwrap_or(0);
+        let known = |of: fn(&Self) -> Option<u64>| {
+            let all: Option<Vec<u64>> = runs.iter().map(of).collect();
+            all.map(|all| all.into_iter().max().unwrap_or(0))
+        };
         let time = |of: fn(&Self) -> Option<f64>| runs.iter().map(of).sum::<Option<f64>>();
         Self {
-            receivers: most(|run| run.receivers),
+            receivers: known(|run| run.receivers),
             receivers_least: most(|run| run.receivers_least),
-            memory_bytes: most(|run| run.memory_bytes),
+            memory_bytes: known(|run| run.memory_bytes),
             memory_least_bytes: most(|run| run.memory_least_bytes),
             time_s: time(|run| run.time_s),
             time_earliest_s: time(|run| run.time_earliest_s),

@@ -123,6 +123,11 @@ pub(crate) fn read(output: &OutputPath, max_bytes: u64) -> Result<Option<RunStat
     let checkpoint = part_files::whole(&path, max_bytes, remedy)?;
     let state = checkpoint::state(&checkpoint)
         .map_err(|what| bad_file(Problems::from(Problem::new(&path, "", what, remedy))))?;
+    if state.stayed_coarse {
+        let what = "for lack of time this run went on with coarser elements, so its map will differ within its error \
+                    from that of a run without --time-limit; for the same bytes solve without --resume";
+        note(Note::Info, format!("{}: {what}", path.display()));
+    }
     let path = pilot_beside(output.path());
     let pilot = match path.exists() {
         true => Some(part_files::read_kept_pilot(&path, max_bytes)?),

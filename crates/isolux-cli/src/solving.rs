@@ -1,7 +1,7 @@
 //! A run of an engine as a user sees it: progress, interruption, and who can mend what went wrong.
 
 use crate::elsewhere::Increments;
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, Survey};
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
 use crate::memory;
@@ -32,7 +32,7 @@ pub(crate) fn estimate(
     source: &Path,
     request: &SolveRequest,
 ) -> Result<Estimate, Failure> {
-    Estimate::of(scene, request).map_err(|error| unsolvable(error, (scene, source)))
+    Estimate::of(scene, request, Survey::Whole).map_err(|error| unsolvable(error, (scene, source)))
 }
 
 /// A solution and how its computation ended.

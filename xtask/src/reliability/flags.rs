@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-const USE: &str = "use --only kills|disk|foreign|twice|same|hostile, --seed N, --count N, --isolux PATH, --other PATH, --arm PATH, --save";
+const USE: &str = "use --only kills|disk|foreign|twice|same|sizes|hostile, --seed N, --count N, --isolux PATH, --other PATH, --arm PATH, --save";
 
 /// Its flags.
 pub(super) struct Flags<'a> {
@@ -48,6 +48,7 @@ impl<'a> Flags<'a> {
         let Self { seed, count, .. } = self;
         match part {
             "hostile" => format!("cargo xtask reliability --only {part} --seed {seed}"),
+            "sizes" => format!("cargo xtask reliability --only {part}"),
             "same" => format!("cargo xtask reliability --only {part} --count {count}{other}{arm}"),
             "foreign" => {
                 format!(

@@ -7,10 +7,12 @@ mod flags;
 mod foreign;
 mod hostile;
 mod kills;
+mod made;
 mod page;
 mod runs;
 mod same;
 mod sealed;
+mod sizes;
 mod told;
 mod twice;
 mod watched;
@@ -26,7 +28,7 @@ use std::time::Instant;
 use told::Told;
 
 /// Parts of the bench, in their order.
-const PARTS: [&str; 6] = ["kills", "disk", "foreign", "twice", "same", "hostile"];
+const PARTS: [&str; 7] = ["kills", "disk", "foreign", "twice", "same", "sizes", "hostile"];
 
 /// Runs the parts that are asked for; the error lists what failed.
 pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
@@ -76,6 +78,7 @@ fn of_part(part: &str, bench: &Bench, flags: &Flags, told: &mut Told) -> Result<
         "foreign" => foreign::run(bench, other, chance, told),
         "twice" => twice::run(bench, chance, told),
         "same" => same::run(bench, (other, flags.arm.as_deref()), told),
+        "sizes" => sizes::run(bench, told),
         _ => hostile::run(bench.root, flags.seed, told),
     }
 }

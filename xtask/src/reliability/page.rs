@@ -13,13 +13,16 @@ const END: &str = "<!-- to here -->\n";
 struct Part {
     key: &'static str,
     heading: &'static str,
+    /// Whether the last line has sums.
+    is_summed: bool,
     columns: &'static [(&'static str, &'static str)],
 }
 
-const PARTS: [Part; 6] = [
+const PARTS: [Part; 7] = [
     Part {
         key: "kills",
         heading: "Runs stopped and resumed",
+        is_summed: true,
         columns: &[
             ("fault", "fault"),
             ("runs", "runs"),
@@ -34,6 +37,7 @@ const PARTS: [Part; 6] = [
     Part {
         key: "disk",
         heading: "Full disks",
+        is_summed: true,
         columns: &[
             ("fault", "fault"),
             ("runs", "runs"),
@@ -43,6 +47,7 @@ const PARTS: [Part; 6] = [
     Part {
         key: "foreign",
         heading: "Damaged and foreign checkpoints",
+        is_summed: true,
         columns: &[
             ("state", "checkpoint"),
             ("tried", "tried"),
@@ -54,6 +59,7 @@ const PARTS: [Part; 6] = [
     Part {
         key: "twice",
         heading: "Two runs with one output",
+        is_summed: true,
         columns: &[
             ("fault", "runs"),
             ("runs", "tried"),
@@ -63,11 +69,26 @@ const PARTS: [Part; 6] = [
     Part {
         key: "same",
         heading: "The same bytes",
+        is_summed: true,
         columns: &[("what", "compared"), ("runs", "runs"), ("same_bytes", "same bytes")],
+    },
+    Part {
+        key: "sizes",
+        heading: "Small files with much in them",
+        is_summed: false,
+        columns: &[
+            ("what", "a file with many"),
+            ("count", "how many"),
+            ("kilobytes", "kB"),
+            ("seconds", "`check`, s"),
+            ("peak_mb", "memory, MB"),
+            ("ended", "ended"),
+        ],
     },
     Part {
         key: "hostile",
         heading: "Hostile files",
+        is_summed: true,
         columns: &[("reader", "reader"), ("tried", "files tried"), ("read", "of them still valid")],
     },
 ];
@@ -105,7 +126,7 @@ fn text(part: &Part, of: &Value) -> Option<String> {
     for row in rows {
         text += &line(columns.iter().map(|(key, _)| cell(&row[key])).collect());
     }
-    if rows.len() > 1 {
+    if part.is_summed && rows.len() > 1 {
         text += &line(columns.iter().enumerate().map(|(k, (key, _))| sum(rows, k, key)).collect());
     }
     let known = |key: &str| of[key].as_str().unwrap_or_default();

@@ -5,10 +5,16 @@ use super::finding::Finding;
 use super::outside::is_outside;
 use isolux::geometry::{Direction, Point, Ray, Vector};
 use isolux::scene::{Body, Finish, Luminaire, LuminaireKind, Material, Scene};
+use isolux_formats::counted;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 /// Findings shown one by one; more are counted.
 const MAX_SHOWN: usize = 10;
+
+/// How long luminaires are looked at: a hundred thousand of them take less.
+const PATIENCE: Duration = Duration::from_secs(2);
 
 /// A luminaire that sees nothing beyond this share of the scene is shut in, and nothing beyond so many metres: rooms are larger,
 /// however large what is around them.
@@ -51,13 +57,27 @@ struct Seen {
 }
 
 pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
+    let (started, unseen) = (Instant::now(), AtomicUsize::new(0));
+    let look = |luminaire| {
+        if started.elapsed() > PATIENCE {
+            unseen.fetch_add(1, Ordering::Relaxed);
+            return None;
+        }
+        Some((luminaire, trouble(scene, luminaire)?))
+    };
     let troubled: Vec<(&Luminaire, Trouble)> =
-        scene.luminaires().par_iter().filter_map(|l| Some((l, trouble(scene, l)?))).collect();
+        scene.luminaires().par_iter().filter_map(look).collect();
     let mut found: Vec<Finding> =
         troubled.iter().take(MAX_SHOWN).map(|(l, trouble)| finding(l, *trouble)).collect();
     if troubled.len() > MAX_SHOWN {
         let more = format!("{} more luminaires in trouble", troubled.len() - MAX_SHOWN);
         found.push(Finding::warning("luminaires", more, "mend the first ones and check again"));
+    }
+    let unseen = unseen.into_inner();
+    if unseen > 0 {
+        let what =
+            counted(unseen as u64, "luminaire was not looked at", "luminaires were not looked at");
+        found.push(Finding::note("luminaires", what, "there are too many for a quick look"));
     }
     found
 }
@@ -75,22 +95,32 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
     if intensity.luminous_flux_lm() <= 0.0 {
         return Some(Trouble::NoFlux);
     }
-    let one = |local: Direction| {
+    let beam = |local: Direction| {
         let light_cd = intensity.intensity_cd(local);
         let direction = world_from_luminaire.vector(local.to_vector()).direction()?;
-        (light_cd > 0.0).then(|| (light_cd, look(scene, *position, direction)))
+        (light_cd > 0.0).then_some((light_cd, direction))
     };
-    let looks: Vec<(f64, Option<Seen>)> = all_around().into_iter().filter_map(one).collect();
-    let seen = || looks.iter().filter_map(|(_, seen)| seen.as_ref());
+    let beams: Vec<(f64, Direction)> = all_around().into_iter().filter_map(beam).collect();
+    let all_cd: f64 = beams.iter().map(|(light_cd, _)| light_cd).sum();
     let extent_m = extent_m(scene);
     let is_close = |s: &Seen| {
         let (share, most_m) =
             if s.back { (INSIDE_SHARE, INSIDE_M) } else { (SHUT_IN_SHARE, SHUT_IN_M) };
         !s.clear && s.distance_m < most_m.min(share * extent_m)
     };
-    let all_cd: f64 = looks.iter().map(|(light_cd, _)| light_cd).sum();
-    let far = looks.iter().filter(|(_, seen)| !seen.as_ref().is_some_and(is_close));
-    let far_cd: f64 = far.map(|(light_cd, _)| light_cd).sum();
+    let mut looks = Vec::new();
+    let (mut far_cd, mut lights_some) = (0.0, false);
+    for (light_cd, direction) in beams {
+        let seen = look(scene, *position, direction);
+        far_cd += if seen.as_ref().is_some_and(is_close) { 0.0 } else { light_cd };
+        lights_some |= seen.as_ref().is_some_and(|s| !s.back && !s.mirrors_alone);
+        // Most luminaires are seen to be right by a few beams.
+        if lights_some && far_cd > LEAKS * all_cd {
+            return None;
+        }
+        looks.push(seen);
+    }
+    let seen = || looks.iter().flatten();
     // What shines down on a desk just below is open above.
     let is_shut_in = || {
         all_around().into_iter().all(|local| {
@@ -108,7 +138,7 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
         Some(Trouble::LightsBlackBacks)
     } else if seen().all(|s| s.back) && is_outside(scene, luminaire) {
         Some(Trouble::Outside)
-    } else if looks.iter().all(|(_, l)| l.as_ref().is_some_and(|s| s.mirrors_alone)) {
+    } else if looks.iter().all(|seen| seen.as_ref().is_some_and(|s| s.mirrors_alone)) {
         Some(Trouble::LightsMirrorsAlone)
     } else if far_cd <= LEAKS * all_cd && is_shut_in() {
         Some(Trouble::ShutIn)
@@ -142,8 +172,9 @@ fn is_shut_out(scene: &Scene, direction: Direction) -> bool {
 /// The first surface in a direction.
 fn look(scene: &Scene, from: Point, direction: Direction) -> Option<Seen> {
     let hit = scene.bvh().closest_hit(&Ray::new(from, direction))?;
-    let mirrors_alone = ends_among_mirrors(scene, from, direction);
     let material = scene.material(hit.triangle);
+    let is_mirror = material.finish(hit.back).is_some_and(Finish::is_pure_mirror);
+    let mirrors_alone = is_mirror && ends_among_mirrors(scene, from, direction);
     Some(Seen {
         back: hit.back,
         black_back: hit.back && has_black_back(material),

@@ -2,20 +2,21 @@
 
 use crate::quantity::significant;
 use isolux::elements::carries_map;
-use isolux::engine::{ExactSettings, PathTracer, ProbePoint};
+use isolux::engine::{PathTracer, ProbePoint};
 use isolux::geometry::Normal;
 use isolux::sampling::{Key, Sequence};
 use isolux::scene::Scene;
 use rayon::prelude::*;
 use serde::Serialize;
+use std::time::{Duration, Instant};
 
-/// Places that are tried, and fewer where luminaires are so many that looking at each of them takes long.
+/// Places that are tried, and fewer where those would take longer than that.
 const PLACES: usize = 1024;
 const FEWEST_PLACES: usize = 64;
-const MOST_LOOKS: usize = 1 << 20;
+const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Few paths: means over many places are asked for. Eight that find no light are one in a dark place.
-const SETTINGS: ExactSettings = ExactSettings { rays: 4, replicates: 2, seed: 1 };
+const PATHS: u32 = 8;
 
 /// The light of a scene, but for what only glass, gloss and curved mirrors bring.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -32,18 +33,25 @@ pub(super) struct Light {
 impl Light {
     pub(super) fn of(scene: &Scene) -> Self {
         let sides = Sides::of(scene);
-        let luminaires = scene.luminaires().len() + scene.area_luminaires().len();
-        let count = (MOST_LOOKS / luminaires.max(1)).clamp(FEWEST_PLACES, PLACES);
-        if luminaires == 0 || sides.total() <= 0.0 {
+        let is_dark = scene.luminaires().is_empty() && scene.area_luminaires().is_empty();
+        if is_dark || sides.total() <= 0.0 {
             return Self::default();
         }
-        let (tracer, sequence) = (PathTracer::new(scene), Sequence::new(Key::new(2)));
-        let on: Vec<usize> = (0..count).map(|index| sides.at(index, count)).collect();
-        let lx_at = |index: usize| {
-            let place = sides.place(scene, on[index], sequence.pair(index as u32, 0));
-            tracer.estimate(place, &SETTINGS).illuminance_lx()
+        let tracer = PathTracer::prepared_within(scene, PATIENCE);
+        let sequence = Sequence::new(Key::new(2));
+        let at_places = |count: usize| -> (Vec<usize>, Vec<f64>) {
+            let lx_at = |index: usize| {
+                let on = sides.at(index, count);
+                let place = sides.place(scene, on, sequence.pair(index as u32, 0));
+                (on, tracer.rough_lx(place, PATHS))
+            };
+            (0..count).into_par_iter().map(lx_at).unzip()
         };
-        let found: Vec<f64> = (0..count).into_par_iter().map(lx_at).collect();
+        let started = Instant::now();
+        let (mut on, mut found) = at_places(FEWEST_PLACES);
+        if started.elapsed() * ((PLACES / FEWEST_PLACES) as u32) < PATIENCE {
+            (on, found) = at_places(PLACES);
+        }
         let areas_m2 = sides.areas_m2(&on);
         let lit = || found.iter().zip(&areas_m2).filter(|(lx, _)| **lx > 0.0);
         let lit_m2: f64 = lit().map(|(_, m2)| m2).sum();

@@ -11,7 +11,7 @@ mod outside;
 
 use crate::console::{facts, print, print_json};
 use crate::daylight::Daylight;
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, Survey};
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
 use crate::installed::Installed;
@@ -83,7 +83,7 @@ impl Audit {
         let light = light::Light::of(scene);
         let request =
             SolveRequest { max_memory_bytes: memory::of_map(), ..SolveRequest::default() };
-        let estimate = Estimate::of(scene, &request);
+        let estimate = Estimate::of(scene, &request, Survey::Short);
         findings.extend(match scene.triangle_count() {
             0 => of_scene(source::NO_AREA),
             _ => [

@@ -39,6 +39,8 @@ struct OfRun {
     rays: u64,
     increments: u64,
     audited: Audited,
+    #[serde(default)]
+    stayed_coarse: bool,
 }
 
 /// What stands in front of the result of a pilot.
@@ -104,6 +106,7 @@ pub fn of_state(state: &RunState) -> Draft<'_> {
         rays: state.rays,
         increments: state.increments,
         audited: state.audited.clone(),
+        stayed_coarse: state.stayed_coarse,
     });
     let arrays =
         [("receivers", &state.receivers), ("checks", &state.checks), ("given_up", &state.given_up)];
@@ -121,6 +124,7 @@ pub fn state(checkpoint: &Checkpoint) -> Result<RunState, String> {
         rays: header.rays,
         increments: header.increments,
         audited: header.audited,
+        stayed_coarse: header.stayed_coarse,
         receivers: sums("receivers")?,
         checks: sums("checks")?,
         given_up: sums("given_up")?,

@@ -6,12 +6,16 @@ use super::spans::At;
 use crate::requirement::requirement;
 use isolux::scene::{Requirement, SceneParts};
 
+/// The most requirements of all grids together: those without a name are for every grid.
+const MOST_REQUIREMENTS: usize = 100_000;
+
 /// Adds all requirements of the file to the grids that they are for.
 pub(super) fn add(
     entries: &[At<RequirementRecord>],
     scene: &mut SceneParts,
     context: &mut Context,
 ) {
+    let mut left = MOST_REQUIREMENTS;
     for entry in entries {
         let record = entry.get_ref();
         let found = read(entry, context);
@@ -20,6 +24,12 @@ pub(super) fn add(
         let mut is_for_none = true;
         for grid in scene.grids.iter_mut().filter(|grid| is_named(&grid.name)) {
             is_for_none = false;
+            let Some(rest) = left.checked_sub(found.len()) else {
+                let what =
+                    format!("more than {MOST_REQUIREMENTS} requirements of all grids together");
+                return context.problem(&entry.span(), what, "name the `grid` that each is for");
+            };
+            left = rest;
             grid.requirements.extend(found.iter().cloned());
         }
         if is_for_none && !context.has_problems() {

@@ -19,6 +19,20 @@ fn deep_and_long_files_end() {
 }
 
 #[test]
+fn requirements_of_all_grids_are_bounded() {
+    const GRID: &str = "[[grid]]\ncorner = [0, 0, 1]\nu = [1, 0, 0]\nv = [0, 1, 0]\n";
+    const REQUIREMENT: &str = "[[requirement]]\nconditions = 'Em >= 100'\n";
+    let with = |count: usize| {
+        let text = [FLOOR, &GRID.repeat(count), &REQUIREMENT.repeat(count)].concat();
+        read_with(&text, &[])
+    };
+    let read = with(100).expect("10,000 are enough for anybody").value;
+    assert!(read.grids.iter().all(|grid| grid.requirements.len() == 100));
+    let found = with(400).expect_err("160,000 are too many").to_string();
+    assert!(found.contains("more than 100000 requirements of all grids together"), "{found}");
+}
+
+#[test]
 fn copies_without_end_are_refused() {
     let mut text = String::from("[materials.m]\ndiffuse = 0.5\n");
     for _ in 0..3 {

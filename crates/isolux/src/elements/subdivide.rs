@@ -18,6 +18,9 @@ use std::collections::HashMap;
 /// joined neighbours; anything else is a crease.
 const CREASE_COS: f64 = 0.999_847_7;
 
+/// The nodes of a closed surface by vertex, at most: two elements, and the nodes that were split into them.
+const NODES_A_VERTEX: usize = 4;
+
 /// Vertices at one place, elements on one edge: mostly one or two.
 type Few = SmallVec<[u32; 2]>;
 
@@ -138,6 +141,12 @@ impl Subdivision {
         self.vertices.len()
     }
 
+    /// How large the subdivision is, in vertices. A surface has two elements a vertex, and as many that were split. Where many surfaces
+    /// lie upon each other, their elements share vertices, and count instead.
+    pub(crate) fn size(&self) -> usize {
+        self.vertices.len().max(self.nodes.len() / NODES_A_VERTEX)
+    }
+
     /// The roots of front and back of every triangle of the scene.
     pub(crate) fn roots(&self) -> &[[Option<u32>; 2]] {
         &self.roots
@@ -169,11 +178,11 @@ impl Subdivision {
         self.longest[node as usize].0.sqrt()
     }
 
-    /// Bisects until no edge is longer than `edge_m` or there are `max_vertices`.
+    /// Bisects until no edge is longer than `edge_m` or the subdivision is as large as one of `max_vertices`.
     pub fn bisect_to(&mut self, edge_m: f64, max_vertices: usize) {
         let mut node = 0;
         // Children are appended, so one pass over the growing list sees them all.
-        while node < self.nodes.len() as u32 && self.vertices.len() < max_vertices {
+        while node < self.nodes.len() as u32 && self.size() < max_vertices {
             if self.nodes[node as usize].split.is_none() && self.longest_edge_m(node) > edge_m {
                 self.bisect(node);
             }
@@ -215,8 +224,28 @@ impl Subdivision {
         let elements = self.edges.remove(&edge).unwrap_or_default();
         let middle = self.middle(edge);
         self.on_border.push(self.is_border(edge, &elements));
+        self.unlist(&elements, edge);
         for node in elements {
             self.split(node, edge, middle);
+        }
+    }
+
+    /// Takes the elements on an edge off the lists of their other edges. Every list is gone through once, however many of them are on it.
+    fn unlist(&mut self, elements: &[u32], edge: [u32; 2]) {
+        let others = |&node: &u32| {
+            let vertices = self.nodes[node as usize].vertices;
+            (0..3).map(move |k| edge_key(vertices[k], vertices[(k + 1) % 3]))
+        };
+        let mut others: SmallVec<[[u32; 2]; 8]> = elements.iter().flat_map(others).collect();
+        others.sort_unstable();
+        others.dedup();
+        for other in others {
+            if let Some(list) = self.edges.get_mut(&other) {
+                let is_on = |node: u32| {
+                    edge.iter().all(|end| self.nodes[node as usize].vertices.contains(end))
+                };
+                list.retain(|node| !is_on(*node));
+            }
         }
     }
 
@@ -235,11 +264,6 @@ impl Subdivision {
     fn split(&mut self, node: u32, edge: [u32; 2], middle: u32) {
         let (Node { vertices, .. }, origin) = self.node(node);
         let on = |k: usize| edge_key(vertices[k], vertices[(k + 1) % 3]);
-        for k in 0..3 {
-            if let Some(list) = self.edges.get_mut(&on(k)) {
-                list.retain(|n| *n != node);
-            }
-        }
         let k = (0..3).find(|&k| on(k) == edge).expect("an element is listed at its own edges");
         let (mut first, mut second) = (vertices, vertices);
         first[(k + 1) % 3] = middle;

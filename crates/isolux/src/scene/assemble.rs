@@ -7,6 +7,7 @@ use super::{
 use super::{mounted, origin, sealed};
 use crate::units::Rgb;
 use isolux_geometry::{Bvh, Hit, Normal, Point, Triangle, TriangleMesh, Vector};
+use std::collections::HashMap;
 
 /// A checked scene with its ray kernel. Immutable.
 #[derive(Clone, Debug)]
@@ -145,6 +146,7 @@ impl Scene {
 
     fn find_area_luminaires(&self) -> Vec<AreaLuminaire> {
         let mut found: Vec<AreaLuminaire> = Vec::new();
+        let mut known = HashMap::new();
         for triangle in 0..self.triangle_count() {
             for back in [false, true] {
                 let Some(finish) = self.material(triangle).finish(back) else { continue };
@@ -152,8 +154,7 @@ impl Scene {
                     continue;
                 }
                 let shape = self.shape_of(triangle);
-                let known = found.iter().rposition(|a| a.shape == shape && a.back == back);
-                let index = known.unwrap_or_else(|| {
+                let index = *known.entry((shape, back)).or_insert_with(|| {
                     found.push(AreaLuminaire {
                         shape,
                         triangles: Vec::new(),

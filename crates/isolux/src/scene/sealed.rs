@@ -5,6 +5,7 @@
 use super::AreaLuminaire;
 use isolux_geometry::{Point, TriangleMesh};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// By what share of its size a box is smaller than what it bounds: what touches it from outside is not inside.
 const WITHIN: f64 = 1e-4;
@@ -87,44 +88,123 @@ impl Closed {
         let within = (high - low) * WITHIN;
         Self { triangles, back_is_inside: volume > 0.0, low: low + within, high: high - within }
     }
-
-    fn contains(&self, at: Point) -> bool {
-        self.overlaps(at, at)
-    }
-
-    fn overlaps(&self, low: Point, high: Point) -> bool {
-        let axis =
-            |low: f64, high: f64, own_low: f64, own_high: f64| low < own_high && high > own_low;
-        axis(low.x, high.x, self.low.x, self.high.x)
-            && axis(low.y, high.y, self.low.y, self.high.y)
-            && axis(low.z, high.z, self.low.z, self.high.z)
-    }
 }
 
 /// Leaves out those that have anything in the box about them: other surfaces, or places.
 fn keep_empty(mesh: &TriangleMesh, places: &[Point], closed: &mut Vec<Closed>) {
-    closed.sort_by(|a, b| a.low.x.total_cmp(&b.low.x));
-    let widest = closed.iter().map(|part| part.high.x - part.low.x).fold(0.0, f64::max);
-    let mut owner = vec![usize::MAX; mesh.len()];
-    for (number, part) in closed.iter().enumerate() {
-        part.triangles.iter().for_each(|&triangle| owner[triangle as usize] = number);
+    let mut owner = vec![None; mesh.len()];
+    for (number, part) in (0..).zip(&*closed) {
+        part.triangles.iter().for_each(|&triangle| owner[triangle as usize] = Some(number));
     }
-    let mut is_empty = vec![true; closed.len()];
+    let mut empty = Boxes::about(closed);
     for triangle in 0..mesh.len() as u32 {
-        let (low, high) = bounds(mesh, triangle);
-        let first = closed.partition_point(|part| part.low.x < low.x - widest);
-        let others = closed.iter().enumerate().skip(first);
-        for (number, part) in others.take_while(|(_, part)| part.low.x < high.x) {
-            if owner[triangle as usize] != number && part.overlaps(low, high) {
-                is_empty[number] = false;
-            }
+        empty.remove_overlapping(bounds(mesh, triangle), owner[triangle as usize]);
+    }
+    places.iter().for_each(|&at| empty.remove_overlapping((at, at), None));
+    let mut is_empty = empty.is_left.into_iter();
+    closed.retain(|_| is_empty.next() == Some(true));
+}
+
+/// The boxes about closed surfaces, in a binary tree. A box that was removed is not looked at again, so that many boxes at one place
+/// take no longer than as many side by side.
+struct Boxes<'a> {
+    closed: &'a [Closed],
+    /// The numbers of the boxes, by the order of the leaves.
+    order: Vec<u32>,
+    /// The branches, each before those of its first half, and those before the ones of its second half.
+    branches: Vec<Branch>,
+    /// By number, whether the box was not removed.
+    is_left: Vec<bool>,
+}
+
+/// Some boxes in their order.
+#[derive(Clone, Copy)]
+struct Branch {
+    low: Point,
+    high: Point,
+    /// How many of the boxes were not removed.
+    left: u32,
+}
+
+impl<'a> Boxes<'a> {
+    fn about(closed: &'a [Closed]) -> Self {
+        let order = (0..closed.len() as u32).collect();
+        let nowhere = Branch { low: Point::ORIGIN, high: Point::ORIGIN, left: 0 };
+        let branches = vec![nowhere; (2 * closed.len()).saturating_sub(1)];
+        let mut made = Self { closed, order, branches, is_left: vec![true; closed.len()] };
+        if !closed.is_empty() {
+            made.branch_off(0, 0..closed.len());
+        }
+        made
+    }
+
+    /// Fills a branch with the boxes of a part of the order, which is sorted into halves.
+    fn branch_off(&mut self, branch: usize, part: Range<usize>) {
+        let boxes = || self.order[part.clone()].iter().map(|&k| &self.closed[k as usize]);
+        let first = &self.closed[self.order[part.start] as usize];
+        let (low, high) = boxes().fold((first.low, first.high), |(low, high), of| {
+            (low.lesser(of.low), high.greater(of.high))
+        });
+        self.branches[branch] = Branch { low, high, left: part.len() as u32 };
+        if part.len() > 1 {
+            let size = high - low;
+            let axis =
+                if size.x >= size.y.max(size.z) { 0 } else { 1 + usize::from(size.z > size.y) };
+            let middle = |&k: &u32| {
+                let of = &self.closed[k as usize];
+                [of.low.x + of.high.x, of.low.y + of.high.y, of.low.z + of.high.z][axis]
+            };
+            let half = part.len() / 2;
+            self.order[part.clone()]
+                .select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)));
+            self.branch_off(branch + 1, part.start..part.start + half);
+            self.branch_off(branch + 2 * half, part.start + half..part.end);
         }
     }
-    for &at in places {
-        closed.iter().zip(&mut is_empty).for_each(|(part, empty)| *empty &= !part.contains(at));
+
+    /// Removes the boxes that overlap this one, but for the one of a number.
+    fn remove_overlapping(&mut self, (low, high): (Point, Point), but: Option<u32>) {
+        if !self.branches.is_empty() {
+            self.remove_of(0, 0..self.order.len(), (low, high), but);
+        }
     }
-    let mut is_empty = is_empty.into_iter();
-    closed.retain(|_| is_empty.next() == Some(true));
+
+    /// Removes boxes of a branch. Returns how many.
+    fn remove_of(
+        &mut self,
+        branch: usize,
+        part: Range<usize>,
+        (low, high): (Point, Point),
+        but: Option<u32>,
+    ) -> u32 {
+        let Branch { low: own_low, high: own_high, left } = self.branches[branch];
+        if left == 0 || !overlap((low, high), (own_low, own_high)) {
+            return 0;
+        }
+        let removed = if part.len() == 1 {
+            let number = self.order[part.start];
+            let is_other = but != Some(number);
+            self.is_left[number as usize] &= !is_other;
+            u32::from(is_other)
+        } else {
+            let half = part.len() / 2;
+            let (first, second) = (part.start..part.start + half, part.start + half..part.end);
+            self.remove_of(branch + 1, first, (low, high), but)
+                + self.remove_of(branch + 2 * half, second, (low, high), but)
+        };
+        self.branches[branch].left -= removed;
+        removed
+    }
+}
+
+/// Whether two boxes have some inside in common.
+fn overlap((low, high): (Point, Point), (other_low, other_high): (Point, Point)) -> bool {
+    low.x < other_high.x
+        && high.x > other_low.x
+        && low.y < other_high.y
+        && high.y > other_low.y
+        && low.z < other_high.z
+        && high.z > other_low.z
 }
 
 /// Of every triangle those beyond its edges; none where an edge has no other triangle, more, or one that turns the other way.
@@ -158,4 +238,46 @@ fn neighbours(mesh: &TriangleMesh) -> Vec<[Option<u32>; 3]> {
 fn bounds(mesh: &TriangleMesh, triangle: u32) -> (Point, Point) {
     let [a, b, c] = mesh.triangle(triangle).corners;
     (a.lesser(b).lesser(c), a.greater(b).greater(c))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::Key;
+
+    fn any_box(number: u64, size_m: f64) -> (Point, Point) {
+        let key = Key::new(7).with(number);
+        let [low, side] = [0, 3].map(|first| [0, 1, 2].map(|k| key.with(first + k).uniform()));
+        let low = Point::from(low);
+        (low, low + Point::from(side).to_vector() * size_m)
+    }
+
+    #[test]
+    fn boxes_are_removed_by_whatever_overlaps_them() {
+        let none = || Closed {
+            triangles: Vec::new(),
+            back_is_inside: true,
+            low: Point::ORIGIN,
+            high: Point::ORIGIN,
+        };
+        for count in [0, 1, 2, 3, 100] {
+            let of = |number: u64| {
+                let (low, high) = any_box(number, 0.3);
+                Closed { low, high, ..none() }
+            };
+            let closed: Vec<Closed> = (0..count).map(of).collect();
+            let mut boxes = Boxes::about(&closed);
+            let mut expected = vec![true; closed.len()];
+            for number in 0..40 {
+                let (low, high) = any_box(1000 + number, 0.1);
+                let but = number.is_multiple_of(2).then_some(number as u32);
+                boxes.remove_overlapping((low, high), but);
+                for (k, part) in (0..).zip(&closed) {
+                    let is_met = overlap((low, high), (part.low, part.high)) && but != Some(k);
+                    expected[k as usize] &= !is_met;
+                }
+                assert_eq!(boxes.is_left, expected, "of {count} after {number}");
+            }
+        }
+    }
 }

@@ -144,19 +144,30 @@ fn a_run_asked_to_stop_before_increments_made_elsewhere_is_a_map() {
     assert!(map.provenance.accuracy.is_none() && !map.provenance.complete);
 }
 
-#[test]
-#[ignore = "slow: cargo xtask test --all"]
-fn who_stops_while_finer_elements_are_made_has_what_was_known_before() {
-    // Which accuracies take elements made anew depends on what the pilot foresees.
-    let stopped = |(reflectance, accuracy): (f64, f64)| {
+/// What a run comes to in the first of several rooms and accuracies where it is not `None`. Which of them take elements
+/// made anew depends on what the pilot foresees.
+fn where_first_elements_are_too_coarse<T>(
+    run: impl Fn(&Scene, SolveRequest) -> Option<T>,
+) -> Option<T> {
+    let accuracies = [1e-2, 5e-3, 3e-3, 2e-3, 1.5e-3, 1e-3];
+    let rooms = [0.95, 0.9, 0.7].into_iter();
+    let mut all = rooms.flat_map(|reflectance| accuracies.map(|accuracy| (reflectance, accuracy)));
+    all.find_map(|(reflectance, accuracy)| {
         let room = inward_box([0.0; 3], [4.0, 5.0, 2.8], 0);
         let table = outward_box([1.0, 1.0, 0.7], [3.0, 2.0, 0.8], 0);
         let shapes = room.into_iter().chain(table).collect();
         let lamps = vec![lamp([2.0, 2.5, 2.5], 100.0)];
         let scene = scene(shapes, vec![painted(reflectance)], lamps);
-        let request = SolveRequest { accuracy: Some(accuracy), ..SolveRequest::default() };
+        run(&scene, SolveRequest { accuracy: Some(accuracy), ..SolveRequest::default() })
+    })
+}
+
+#[test]
+#[ignore = "slow: cargo xtask test --all"]
+fn who_stops_while_finer_elements_are_made_has_what_was_known_before() {
+    let found = where_first_elements_are_too_coarse(|scene, request| {
         let (mut seen, mut stopped) = (None, false);
-        let solution = solve(&scene, &request, None, &mut |p| {
+        let solution = solve(scene, &request, None, &mut |p| {
             stopped |= p.stage == Stage::Pilot && seen.is_some();
             if p.stage == Stage::Increments && !stopped {
                 seen = Some((p.increments, p.receivers));
@@ -165,16 +176,54 @@ fn who_stops_while_finer_elements_are_made_has_what_was_known_before() {
         });
         let solution = solution.expect("the scene has light");
         (!solution.map.provenance.complete).then_some((solution, seen))
-    };
-    let accuracies = [1e-2, 5e-3, 3e-3, 2e-3, 1.5e-3, 1e-3];
-    let rooms = [0.95, 0.9, 0.7].into_iter();
-    let mut all = rooms.flat_map(|reflectance| accuracies.map(|accuracy| (reflectance, accuracy)));
-    let found = all.find_map(stopped);
+    });
     let (solution, seen) = found.expect("some first elements were to be too coarse");
     let (increments, receivers) = seen.expect("increments came first");
     assert_eq!(solution.state.stage, 1);
     assert_eq!(solution.state.increments, increments);
     assert_eq!(solution.map.elements.vertices().len() as u64, receivers);
+}
+
+#[test]
+#[ignore = "slow: cargo xtask test --all"]
+fn a_state_tells_whether_its_run_lacked_time_for_finer_elements() {
+    // Far longer than the first elements take. A third of it is slept away with their last report, so that no time is left for
+    // finer ones: a pilot may take 0.4 of it.
+    let limit = Duration::from_secs(30);
+    let found = where_first_elements_are_too_coarse(|scene, request| {
+        let (mut rounds, mut last) = (0, None);
+        let unlimited = solve(scene, &request, None, &mut |p| match (p.stage, last) {
+            (Stage::Increments, last_of_all) if last_of_all < Some(p.increments) => {
+                last = Some(p.increments);
+                Watch::Continue
+            }
+            (_, None) => {
+                rounds += 1;
+                Watch::Continue
+            }
+            (_, Some(_)) => Watch::Stop,
+        });
+        let unlimited = unlimited.expect("the scene has light");
+        let last = last.filter(|_| !unlimited.map.provenance.complete)?;
+        assert!(!unlimited.state.stayed_coarse);
+        let request = SolveRequest { time_limit: Some(limit), ..request };
+        let mut left = rounds;
+        let limited = solve(scene, &request, None, &mut |p| {
+            if p.stage == Stage::Increments {
+                return if p.increments > last { Watch::Stop } else { Watch::Continue };
+            }
+            left -= 1;
+            if left == 0 {
+                let until_s = limit.as_secs_f64() / 3.0 - p.elapsed_s;
+                std::thread::sleep(Duration::from_secs_f64(until_s.max(0.0)));
+            }
+            Watch::Continue
+        });
+        Some((limited.expect("the scene has light").state, last))
+    });
+    let (state, last) = found.expect("some first elements were to be too coarse");
+    assert_eq!((state.stage, state.increments), (1, last + 1));
+    assert!(state.stayed_coarse);
 }
 
 #[test]

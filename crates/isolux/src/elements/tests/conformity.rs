@@ -200,3 +200,16 @@ fn where_solids_touch_borders_stay_borders() {
         assert_eq!(border[k], is_rim(at), "{at:?}");
     }
 }
+
+#[test]
+fn surfaces_on_each_other_are_as_many_elements_as_a_surface_of_their_size_has() {
+    let shapes: Vec<Shape> = (0..500).map(|_| square()).collect();
+    let scene = scene(shapes, vec![grey()]);
+    let mut subdivision = Subdivision::new(&scene);
+    subdivision.bisect_to(1e-3, 2000);
+    // The last bisection splits all 500 at once.
+    assert!(subdivision.node_count() <= 4 * 2000 + 4 * 500, "{}", subdivision.node_count());
+    assert_eq!(subdivision.leaves().count() % 500, 0, "all are divided alike");
+    let area_m2: f64 = subdivision.leaves().map(|leaf| subdivision.triangle(leaf).area()).sum();
+    assert!((area_m2 - 500.0).abs() < 1e-9, "{area_m2}");
+}

@@ -24,6 +24,7 @@ mod places;
 use crate::engine::gather::BrightSurfaces;
 use crate::engine::light::Lighting;
 use crate::engine::method::PathTracer;
+use crate::engine::ray::NEVER;
 use crate::engine::read::{MapReader, reference_lx};
 use crate::map::{Audit, AuditTrust, AuditedPlace, AuditedSurface, IlluminationMap};
 use crate::sampling::Key;
@@ -86,7 +87,7 @@ pub fn audit_watched(
     watch: &mut dyn FnMut(f64),
 ) -> Option<Audit> {
     let lighting = Arc::new(Lighting::new(scene));
-    let (bright, _) = BrightSurfaces::of(scene, &lighting, map.provenance.seed);
+    let (bright, _) = BrightSurfaces::of(scene, &lighting, map.provenance.seed, &NEVER);
     audit_with((scene, map), (lighting, bright), (settings, watch))
 }
 

@@ -4,6 +4,7 @@ use super::emission::Emission;
 use super::lighting::Lighting;
 use super::particle::Particle;
 use crate::elements::carries_map;
+use crate::engine::ray::Deadline;
 use crate::sampling::Sequence;
 use crate::scene::Scene;
 use rayon::prelude::*;
@@ -52,15 +53,20 @@ pub(crate) fn times(emission: &Emission<'_>) -> u32 {
     (emission.count() as u32 / FEW_LUMINAIRES).clamp(1, MOST_PARTICLES_FACTOR)
 }
 
-/// The landings of `count` particles, straight or over planar mirrors, on surfaces that carry a map.
+/// The landings of `count` particles, straight or over planar mirrors, on surfaces that carry a map. Particles whose turn comes after
+/// the end are left out.
 pub(crate) fn landed(
     (scene, lighting): (&Scene, &Lighting<'_>),
     emission: &Emission<'_>,
     count: u32,
     sequence: Sequence,
+    end: &Deadline,
 ) -> Vec<Landing> {
     let one = |index: u32| {
         let mut landed = Vec::new();
+        if end.has_passed() {
+            return landed;
+        }
         let particle = Particle::emit(emission, sequence, index, count, MOST_MIRRORS);
         let Some(mut particle) = particle else { return landed };
         while !particle.is_given_up() && particle.is_covered(lighting) {

@@ -34,9 +34,9 @@ pub(super) const RAYS_TO_MANY_POINTS: usize = 16;
 
 /// Samples of all emitting surfaces together in one replicate at a receiver. With 16, a ledge with hidden
 /// lamps makes its elements anew, and viewers show the noise of vertices (decision 44).
-const AREA_SAMPLES: usize = 64;
+pub(super) const AREA_SAMPLES: usize = 64;
 /// The fewest samples of one emitting surface.
-const FEWEST_AREA_SAMPLES: usize = 4;
+pub(super) const FEWEST_AREA_SAMPLES: usize = 4;
 
 /// The sources of a scene, prepared for sampling.
 pub(crate) struct Lighting<'s> {

@@ -8,12 +8,19 @@ use super::panes::Panes;
 use super::sources::triangle_lamps::faces;
 use super::sources::{LuminaireId, Source, SourceKind, Sources};
 use super::tree::{Images, Tree};
+use crate::engine::ray::{Deadline, NEVER};
 use crate::scene::Scene;
 use std::collections::{BTreeSet, HashSet};
 
 impl<'s> Lighting<'s> {
     /// Prepares the sources of a scene.
     pub(crate) fn new(scene: &'s Scene) -> Self {
+        Self::prepared_until(scene, &NEVER)
+    }
+
+    /// Prepares the sources of a scene. Openings that are not found by the end of the time are left out: light through them is
+    /// sampled with more noise.
+    pub(crate) fn prepared_until(scene: &'s Scene, end: &Deadline) -> Self {
         let mirrors = Mirrors::find(scene);
         let Sources { all: sources, starts, leaves_chains, left_out } =
             Sources::of(scene, &mirrors);
@@ -39,7 +46,7 @@ impl<'s> Lighting<'s> {
             are_pooled: false,
         };
         lighting.twins = lighting.find_twins();
-        lighting.openings = lighting.look_out();
+        lighting.openings = lighting.look_out(end);
         lighting.plant();
         lighting.are_pooled = lighting.can_pool();
         lighting

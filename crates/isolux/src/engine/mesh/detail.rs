@@ -264,7 +264,7 @@ pub(crate) fn refine_worst(
         let corners = subdivision.node(error.node).0.vertices;
         if waits(carriers, corners) {
             asked.extend(corners);
-        } else if subdivision.vertex_count() < max_vertices {
+        } else if subdivision.size() < max_vertices {
             subdivision.bisect_twice(error.node);
         } else {
             continue;

@@ -5,7 +5,7 @@
 //! distance that a surface sees tells how fast light varies over it.
 
 use crate::elements::{Origin, Subdivision};
-use crate::engine::ray::{ShortRays, Stand, SurfacePoint};
+use crate::engine::ray::{Deadline, ShortRays, Stand, SurfacePoint};
 use crate::sampling::Key;
 use crate::scene::Scene;
 use rayon::prelude::*;
@@ -30,9 +30,15 @@ const LEAST_ROOM_M: f64 = 1.0;
 /// The largest number of added vertices: surfaces below tables and cupboards do not see far, either.
 const MOST_ADDED_VERTICES: usize = 700;
 
-/// Bisects elements that are too long for the distance that their surface sees, the largest first.
-pub(crate) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_vertices: usize) {
-    let most = (subdivision.vertex_count() + MOST_ADDED_VERTICES).min(max_vertices);
+/// Bisects elements that are too long for the distance that their surface sees, the largest first. Surfaces that nothing is known of by
+/// the end of the time keep their elements.
+pub(crate) fn bisect_to_scale(
+    scene: &Scene,
+    subdivision: &mut Subdivision,
+    max_vertices: usize,
+    end: &Deadline,
+) {
+    let most = (subdivision.size() + MOST_ADDED_VERTICES).min(max_vertices);
     // Corners see less far than the middle of a wall, but light varies no less there; so the farthest distance
     // counts.
     let side = |subdivision: &Subdivision, node: u32| {
@@ -47,8 +53,10 @@ pub(crate) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_
             subdivision.longest_edge_m(node) > MOST_EDGE_SHARE * LEAST_ROOM_M;
     }
     leaves.retain(|&node| is_long[side(subdivision, node)]);
-    let reach =
-        |&node: &u32| reach_m(scene, SurfacePoint::amid_node(scene, subdivision, node).stand());
+    let reach = |&node: &u32| match end.has_passed() {
+        true => f64::INFINITY,
+        false => reach_m(scene, SurfacePoint::amid_node(scene, subdivision, node).stand()),
+    };
     let reaches_m: Vec<f64> = leaves.par_iter().map(reach).collect();
     let farthest = |&is_long: &bool| if is_long { 0.0_f64 } else { f64::INFINITY };
     let mut farthest_m: Vec<f64> = is_long.iter().map(farthest).collect();
@@ -68,7 +76,7 @@ pub(crate) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_
         asked.sort_by(|&a, &b| area_m2(b).total_cmp(&area_m2(a)).then(a.cmp(&b)));
         let first = subdivision.node_count() as u32;
         for node in asked {
-            if subdivision.vertex_count() >= most {
+            if subdivision.size() >= most {
                 return;
             }
             subdivision.bisect(node);

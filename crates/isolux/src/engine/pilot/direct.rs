@@ -92,7 +92,7 @@ impl Pilot<'_> {
         let measured = |k: usize| {
             if self.direct.in_time.has_passed() {
                 let sequence = Sequence::new(self.key.with(5).with(k as u64));
-                let looks = if self.end.has_passed() { 1 } else { 2 };
+                let looks = if self.end.has_passed() { self.rays_too_late } else { 2 };
                 return self.lighting.measured_in_a_hurry(&gatherers[k].surface, looks, sequence);
             }
             let (goal, sequence) = match self.direct.noise_lx {
@@ -120,7 +120,9 @@ impl Pilot<'_> {
             (elements.vertices()[k].area_m2, light.lx.luminance())
         };
         let some: Vec<usize> = (0..gatherers.len()).step_by(every).collect();
-        let some: Vec<(f64, f64)> = some.into_par_iter().map(look).collect();
+        // The first is looked at in any case: without any nothing is known.
+        let in_time = some.into_par_iter().filter(|&k| k == 0 || !self.direct.in_time.has_passed());
+        let some: Vec<(f64, f64)> = in_time.map(look).collect();
         let area_m2: f64 = some.iter().map(|(m2, _)| m2).sum();
         let mean =
             |power: i32| some.iter().map(|&(m2, lx)| m2 * lx.powi(power)).sum::<f64>() / area_m2;

@@ -47,7 +47,7 @@ impl Pilot<'_> {
             // The time of a portion gives an early prediction. With a control variate, rays take little of the time.
             self.costs.rays.add(started.elapsed(), operator.rays as f64);
             if self.walls.backdrop.is_none() {
-                go_on(&self.round(request, None, (None, None)));
+                self.report_before_survey(request, go_on);
             }
             started = Instant::now();
         }

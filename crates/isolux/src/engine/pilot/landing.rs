@@ -43,7 +43,7 @@ impl Pilot<'_> {
         let mut any = false;
         for _ in 0..MOST_ROUNDS {
             let wrong = self.wrongly_told(elements, (&landed, each_lm(many)));
-            let room = |pilot: &Self| pilot.mesh.subdivision.vertex_count() < request.max_vertices;
+            let room = |pilot: &Self| pilot.mesh.subdivision.size() < request.max_vertices;
             if wrong.is_empty() || !room(self) || self.end.has_passed() {
                 break;
             }
@@ -64,7 +64,7 @@ impl Pilot<'_> {
     fn landed(&mut self, emission: &Emission<'_>, count: u32, number: u64) -> Vec<Landing> {
         self.traced += u64::from(count);
         let sequence = Sequence::new(self.key.with(12).with(number));
-        landings::landed((self.scene, self.lighting), emission, count, sequence)
+        landings::landed((self.scene, self.lighting), emission, count, sequence, &self.end)
     }
 
     /// The elements that get clearly more or less flux than their vertices show; empty if the differences are small

@@ -48,12 +48,12 @@ pub(super) fn pilot<'s>(
     pilot.finish(look, request, go_on)
 }
 
-/// Runs the first part of a pilot for its reports to `go_on` alone.
+/// Runs the first part of a pilot for its reports to `go_on` alone. Returns the number of vertices at its end.
 pub(super) fn foresee<'s>(
     scene: &'s Scene,
     lighting: &'s Lighting<'s>,
     request: &PilotRequest,
     go_on: &mut GoOn<'_>,
-) {
-    Pilot::new(scene, lighting, request).foresee(request, go_on);
+) -> usize {
+    Pilot::new(scene, lighting, request).foresee(request, go_on)
 }

@@ -30,11 +30,13 @@ impl Pilot<'_> {
 
     /// Surveys and refines for the predictions of the remaining time alone, as long as there is time. The search for
     /// light beside hidden vertices is left out: it takes longer than all else here and adds few elements.
-    pub(super) fn foresee(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) {
+    pub(super) fn foresee(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> usize {
+        self.rays_too_late = 0;
         let (mut look, most, has_time) = self.first_elements(request, go_on);
         if has_time {
             self.refine_for_readers(most, &mut look, request, go_on);
         }
+        self.mesh.subdivision.vertex_count()
     }
 
     /// The survey of the first elements, the largest number of vertices for indirect light, and whether there is time
@@ -111,7 +113,7 @@ impl Pilot<'_> {
                 let before = subdivision.vertex_count();
                 let halvings = twice.into_iter().map(|node| (node, 2));
                 for (node, halvings) in halvings.chain(once.into_iter().map(|node| (node, 1))) {
-                    if subdivision.vertex_count() >= max_vertices {
+                    if subdivision.size() >= max_vertices {
                         break;
                     }
                     match halvings {

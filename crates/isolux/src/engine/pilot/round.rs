@@ -63,16 +63,27 @@ impl Pilot<'_> {
         let (started, sequence) = (Instant::now(), Sequence::new(self.key));
         let some: Vec<&Gatherer> = gatherers.iter().step_by(FIRST_PART_DIVISOR).collect();
         let trace = |gatherer: &&Gatherer| {
+            if self.end.has_passed() {
+                return 0;
+            }
             let axis = gatherer.normal.to_direction();
             for index in 0..TRACED_RAYS {
                 let local = CosineHemisphere::sample(Dice::new(sequence, index).pair());
                 let ray = Ray::new(gatherer.origin, axis.from_local(local));
                 std::hint::black_box(self.scene.bvh().closest_hit(&ray));
             }
+            TRACED_RAYS
         };
-        some.par_iter().for_each(trace);
-        self.costs.traced.add(started.elapsed(), (some.len() * TRACED_RAYS as usize) as f64);
-        go_on(&self.round(request, None, (None, None)));
+        let traced: u32 = some.par_iter().map(trace).sum();
+        self.costs.traced.add(started.elapsed(), f64::from(traced));
+        self.report_before_survey(request, go_on);
+    }
+
+    /// Reports what is known before the first survey. Costs of work done in a hurry tell nothing.
+    pub(super) fn report_before_survey(&self, request: &PilotRequest, go_on: &mut GoOn<'_>) {
+        if !self.end.has_passed() {
+            go_on(&self.round(request, None, (None, None)));
+        }
     }
 
     /// The work done and the work to come, from the last survey if there was one.

@@ -85,6 +85,9 @@ pub(super) struct Pilot<'s> {
     pub(super) end: Deadline,
     /// The end of the time for the reflections of light: without them a map is too dark.
     pub(super) reflects_until: Deadline,
+    /// The number of rays of a receiver whose turn comes after the end, and of looks at its direct light: one, or none where nobody
+    /// will use them.
+    pub(super) rays_too_late: u32,
     /// Whether there was time for all steps of the pilot.
     pub(super) is_whole: bool,
 }
@@ -236,11 +239,11 @@ fn first_mesh(scene: &Scene, request: &PilotRequest) -> FirstMesh {
     } else {
         edge_m
     };
-    let most = subdivision.vertex_count() + (MOST_OF_EDGE * (first + more)) as usize;
+    let most = subdivision.size() + (MOST_OF_EDGE * (first + more)) as usize;
     let most = request.max_vertices.min(most.max(ANYWAY_VERTICES));
     subdivision.bisect_to(start_m, most);
     if request.is_fitted && !without("room-scale") {
-        bisect_to_scale(scene, &mut subdivision, request.max_vertices);
+        bisect_to_scale(scene, &mut subdivision, request.max_vertices, &request.end);
     }
     FirstMesh { subdivision, edge_m, has_many_things: more > first, most }
 }
@@ -258,7 +261,7 @@ impl<'s> Pilot<'s> {
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         let key = Key::new(request.seed).with(0);
-        let (bright, traced) = BrightSurfaces::of(scene, lighting, request.seed);
+        let (bright, traced) = BrightSurfaces::of(scene, lighting, request.seed, &request.end);
         let mesh = Mesh {
             subdivision,
             reflectances: Reflectances::default(),
@@ -294,7 +297,8 @@ impl<'s> Pilot<'s> {
             started,
             end: request.end.clone(),
             reflects_until: request.end.clone().with_grace(Duration::ZERO),
-            is_whole: true,
+            rays_too_late: 1,
+            is_whole: !request.end.has_passed(),
         }
     }
 
@@ -345,15 +349,16 @@ impl<'s> Pilot<'s> {
     }
 
     /// The operator of some receivers, all with the same random numbers. Receivers whose turn comes after the end get one
-    /// ray each.
+    /// ray each at most.
     pub(super) fn operator(
         &self,
         gathering: &Gathering<'_>,
         rows: &[Gatherer],
         key: Key,
     ) -> Operator {
-        let row = |k: usize| {
-            if self.end.has_passed() { rows[k].with_rays(rows[k].rays.min(1)) } else { rows[k] }
+        let row = |k: usize| match self.end.has_passed() {
+            true => rows[k].with_rays(rows[k].rays.min(self.rays_too_late)),
+            false => rows[k],
         };
         let operator = gathering.operator_until(&NEVER, (rows.len(), row), |_| key);
         operator.expect("without a deadline nothing is given up")

@@ -121,8 +121,9 @@ pub struct Prediction {
 /// The predicted size and time of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foreseen {
-    /// The number of vertices that the elements would have, as far as their errors tell.
-    pub receivers: u64,
+    /// The number of vertices that the elements would have, as far as their errors tell; `None` if there was no time to
+    /// look at those.
+    pub receivers: Option<u64>,
     /// The number that they have already: the least, as elements are only refined.
     pub receivers_so_far: u64,
     /// The finishing time; `None` if the method gives no prediction, or without an accuracy goal.

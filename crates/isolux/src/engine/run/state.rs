@@ -27,6 +27,9 @@ pub struct RunState {
     pub increments: u64,
     /// The results of the audits so far.
     pub audited: Audited,
+    /// Whether the time limit left no time for finer elements, and the run went on with the present ones. It has made
+    /// other increments since than a run without a limit.
+    pub stayed_coarse: bool,
     /// The sums of the receivers.
     pub receivers: Vec<Sums>,
     /// The sums of the check points, then those of the checked parts of elements.

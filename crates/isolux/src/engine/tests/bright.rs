@@ -4,7 +4,7 @@ use super::*;
 use crate::elements::{Elements, Subdivision, Vertex};
 use crate::engine::gather::{BrightSurfaces, DirectAtEnds, Gatherer, Gathering};
 use crate::engine::light::Lighting;
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{NEVER, SurfacePoint};
 use crate::map::Standing;
 use crate::scene::{Body, Dielectric};
 use std::sync::Arc;
@@ -34,7 +34,7 @@ impl<'a> Lit<'a> {
     }
 
     fn bright(&self) -> Option<Arc<BrightSurfaces>> {
-        BrightSurfaces::of(self.scene, &self.lighting, 1).0
+        BrightSurfaces::of(self.scene, &self.lighting, 1, &NEVER).0
     }
 
     /// Direct light reflected once, and light read of vertices, in many trials at a place: the mean, the standard error of that, and rays of a

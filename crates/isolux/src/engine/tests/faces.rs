@@ -95,3 +95,29 @@ fn measured_faces_are_as_near_as_they_say() {
 /// Places, and measurements of each.
 const PLACES: u64 = 20;
 const MEASURED: u64 = 30;
+
+#[test]
+fn only_so_many_surfaces_are_sampled_by_themselves_however_large_they_are() {
+    let ceiling = |k: u32| {
+        let height_m = 2.0 + 0.01 * f64::from(k);
+        rectangle([0.0, 0.0, height_m], [0.0, 8.0, 0.0], [8.0, 0.0, 0.0], 1)
+    };
+    let glow = Finish { luminance_cd_m2: Rgb::grey(100.0), ..Finish::BLACK };
+    let with = |count: u32| {
+        let floor = rectangle([-9.0, -9.0, 0.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0);
+        let shapes = (0..count).map(ceiling).chain([floor]).collect();
+        let grey = Material::one_sided("grey", Finish::diffuse(Rgb::grey(0.5)));
+        scene(shapes, vec![grey, Material::one_sided("glow", glow.clone())], Vec::new())
+    };
+    for (count, by_themselves) in [(10, 10), (50, 16)] {
+        let scene = with(count);
+        let lighting = Lighting::new(&scene);
+        let found = lighting.rays_of_sampled(1) - u64::from(count > 16) * 16;
+        assert_eq!(found, by_themselves, "of {count}");
+    }
+    let of = |lighting: &Lighting, at: &SurfacePoint, seed: u64| {
+        lighting.illuminance(at, &mut dice(seed))
+    };
+    let largest = deviation(&with(50), of, receivers(4));
+    assert!(largest < SIGMAS, "{largest} standard errors");
+}

@@ -15,7 +15,7 @@ use crate::elements::carries_map;
 use crate::engine::light::{
     Emission, FIRST_PARTICLES, FURTHER_PARTICLES, Landing, Lighting, landings,
 };
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{Deadline, SurfacePoint};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Normal, Point, Ray, Vector};
@@ -89,11 +89,13 @@ pub(crate) struct Seen<'b> {
 }
 
 impl BrightSurfaces {
-    /// The bright surfaces found by particles of a seed, `None` if there are none, and the number of those particles.
+    /// The bright surfaces found by particles of a seed, `None` if there are none or no time is left, and the number of those
+    /// particles.
     pub(crate) fn of(
         scene: &Scene,
         lighting: &Lighting<'_>,
         seed: u64,
+        end: &Deadline,
     ) -> (Option<Arc<Self>>, u64) {
         if without("bright-surfaces") {
             return (None, 0);
@@ -105,8 +107,11 @@ impl BrightSurfaces {
         let (mut bright, mut particles) = (None, 0);
         for (number, count) in [(0, FIRST_PARTICLES * times), (1, FURTHER_PARTICLES * times)] {
             let sequence = Sequence::new(key.with(number));
-            let landed = landings::landed((scene, lighting), &emission, count, sequence);
+            let landed = landings::landed((scene, lighting), &emission, count, sequence, end);
             particles += u64::from(count);
+            if end.has_passed() {
+                return (None, particles);
+            }
             bright = Self::told_by(scene, &landed, area_m2);
             if bright.is_none() {
                 break;

@@ -10,7 +10,7 @@ use super::sample::area::Shape;
 use super::sources::{Emitter, LuminaireId, Source, SourceKind, Target};
 use crate::ablation::without;
 use crate::elements::carries_map;
-use crate::engine::ray::{Dice, SurfacePoint};
+use crate::engine::ray::{Deadline, Dice, SurfacePoint};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use isolux_geometry::Point;
 use planes::{MOST_OPENINGS, Plane, Way, planes};
@@ -58,8 +58,8 @@ const MOST_TELLING_PATHS: usize = 1024;
 const LEAST_FREE_SHARE: f64 = 0.1;
 
 impl Lighting<'_> {
-    /// The openings in front of all emitting surfaces and skies. They depend on the scene alone.
-    pub(crate) fn look_out(&self) -> Openings {
+    /// The openings in front of all emitting surfaces and skies. They depend on the scene alone, if there is time to look for them.
+    pub(crate) fn look_out(&self, end: &Deadline) -> Openings {
         let skies: Vec<(u32, &FarSky)> = self.skies().collect();
         let areas = self.scene.area_luminaires();
         if areas.is_empty() && skies.is_empty() {
@@ -69,7 +69,7 @@ impl Lighting<'_> {
         let mut left = if without("opening-search") { 0 } else { MOST_TRIAL_RAYS };
         let of_sky = |&(number, sky): &(u32, &FarSky)| {
             let key = Key::new(u64::from(number)).with(SKIES);
-            let finder = Finder { lighting: self, sought: Sought::Sky(sky), key };
+            let finder = Finder { lighting: self, sought: Sought::Sky(sky), key, end };
             (number, finder.before_sky(&surface, sky, &mut left))
         };
         let of_skies = skies.iter().map(of_sky).collect();
@@ -81,7 +81,7 @@ impl Lighting<'_> {
             let SourceKind::Area { emitter, triangles } = &source.kind else { return None };
             let key = Key::new(number as u64);
             let sought = Sought::Surface { emitter, triangles };
-            let finder = Finder { lighting: self, sought, key };
+            let finder = Finder { lighting: self, sought, key, end };
             finder.before(emitter, &surface, areas[number].back, &mut left)
         };
         Openings::new((0..areas.len()).map(of_surface).collect(), of_skies)
@@ -147,6 +147,8 @@ struct Finder<'a> {
     lighting: &'a Lighting<'a>,
     sought: Sought<'a>,
     key: Key,
+    /// The end of the time for the search. After that there are no places to look from, and so no openings.
+    end: &'a Deadline,
 }
 
 impl Finder<'_> {
@@ -245,6 +247,9 @@ impl Finder<'_> {
     }
 
     fn looked(&self, surface: &Surface, (k, looks): (usize, usize), key: Key) -> Option<Looked> {
+        if self.end.has_passed() {
+            return None;
+        }
         let mut dice = Dice::new(Sequence::new(key), k as u32);
         let at = surface.place(self.lighting, k, &mut dice);
         let sequence = dice.fork();

@@ -57,6 +57,7 @@ impl Lighting<'_> {
         let one = |look: u32| self.estimate(at, &mut Dice::new(sequence, look));
         let values: Vec<Rgb> = (0..looks).map(one).collect();
         let (lx, variance) = match values[..] {
+            [] => (Rgb::BLACK, 0.0),
             [lx] => (lx, lx.luminance().powi(2)),
             _ => mean_and_variance(&values),
         };

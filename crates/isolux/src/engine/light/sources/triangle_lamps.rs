@@ -3,6 +3,7 @@
 //! A sample of each surface takes time in proportion to their number. As lamps of the tree, with a cosine
 //! distribution about their normal, triangles are chosen by a few teeth of a comb (stratified samples of the tree).
 
+use super::super::lighting::{AREA_SAMPLES, FEWEST_AREA_SAMPLES};
 use super::super::openings::Openings;
 use super::corners_seen;
 use crate::ablation::without;
@@ -13,11 +14,14 @@ use isolux_geometry::{Point, Vector};
 /// faces take less time for the same errors (decision 48).
 const FEW_SURFACES: usize = 3;
 
-/// Extent of a surface, as a share of the scene's, above which it is always sampled: skies, luminous ceilings.
+/// Extent of a surface, as a share of the scene's, above which it is sampled by itself: skies, luminous ceilings.
 const LARGE_EXTENT_SHARE: f64 = 0.25;
+/// The most surfaces that are sampled by themselves for their extent or their triangles: so many share the samples of a receiver with
+/// the fewest for each. More would take time in proportion to their number.
+const MOST_BY_THEMSELVES: usize = AREA_SAMPLES / FEWEST_AREA_SAMPLES;
 
-/// The most triangles in the light tree. Each takes 600 bytes: with 2^20, a scene of 786,000 takes 1.5 GB in place
-/// of 0.9 GB (decision 48).
+/// The most triangles in the light tree, if few surfaces have all others. Each takes 600 bytes: with 2^20, a scene of
+/// 786,000 takes 1.5 GB in place of 0.9 GB (decision 48).
 const MOST_TRIANGLES: usize = 1 << 18;
 
 /// An emitting triangle in the light tree.
@@ -68,16 +72,19 @@ pub(crate) fn faces(scene: &Scene, openings: &Openings) -> Vec<Face> {
             area.triangles.iter().map(face).unzip();
         let &[start, ..] = corners.first()?;
         let extent_m = corners.iter().flatten().map(|&p| (p - start).length()).fold(0.0, f64::max);
-        (extent_m <= most_m).then_some(faces)
+        Some((extent_m, faces))
     });
-    let mut found: Vec<Vec<Face>> = found.collect();
-    // Surfaces with the fewest triangles come first, as far as there is room.
+    let (mut large, small): (Vec<_>, Vec<_>) = found.partition(|(extent_m, _)| *extent_m > most_m);
+    large.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let mut by_themselves = large.len().min(MOST_BY_THEMSELVES);
+    let others = large.into_iter().skip(MOST_BY_THEMSELVES);
+    let mut found: Vec<Vec<Face>> =
+        small.into_iter().chain(others).map(|(_, faces)| faces).collect();
     found.sort_by_key(Vec::len);
-    let mut left = MOST_TRIANGLES;
-    found.retain(|faces| {
-        let has_room = faces.len() <= left;
-        left -= if has_room { faces.len() } else { 0 };
-        has_room
-    });
+    let mut triangles: usize = found.iter().map(Vec::len).sum();
+    while triangles > MOST_TRIANGLES && by_themselves < MOST_BY_THEMSELVES {
+        triangles -= found.pop().map_or(0, |faces| faces.len());
+        by_themselves += 1;
+    }
     if found.len() <= FEW_SURFACES { Vec::new() } else { found.concat() }
 }

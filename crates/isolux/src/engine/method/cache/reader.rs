@@ -92,7 +92,7 @@ impl<'s> CacheReader<'s> {
     ) -> Result<Self, CacheError> {
         cache.check(scene)?;
         let lighting = Lighting::new(scene);
-        let (bright, _) = BrightSurfaces::of(scene, &lighting, settings.seed);
+        let (bright, _) = BrightSurfaces::of(scene, &lighting, settings.seed, &NEVER);
         let mut reader = Self {
             scene,
             lighting,

@@ -20,7 +20,9 @@ mod sensitivity;
 use crate::elements::carries_map;
 use crate::engine::gather::Gatherer;
 use crate::engine::light::{Emission, Lighting, LuminaireId, Measured, REPLICATES};
-use crate::engine::ray::{Dice, Places, ProbePoint, SurfacePoint, mean_and_variance, place_key};
+use crate::engine::ray::{
+    Deadline, Dice, Places, ProbePoint, SurfacePoint, mean_and_variance, place_key,
+};
 use crate::engine::read::ExactSettings;
 use crate::map::{Illuminance, Standing};
 use crate::sampling::{Key, Sequence};
@@ -32,6 +34,7 @@ use rayon::prelude::*;
 pub use sensitivity::Sensitivity;
 use std::collections::HashMap;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// The result of paths at a place.
 pub(crate) struct Traced {
@@ -50,6 +53,12 @@ impl<'a> PathTracer<'a> {
     /// A path tracer; prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene) -> Self {
         Self::with_lighting(scene, Arc::new(Lighting::new(scene)))
+    }
+
+    /// A path tracer that prepares the luminaires of the scene within some time, or else samples them with more noise.
+    pub fn prepared_within(scene: &'a Scene, time: Duration) -> Self {
+        let end = Deadline::at(Instant::now().checked_add(time));
+        Self::with_lighting(scene, Arc::new(Lighting::prepared_until(scene, &end)))
     }
 
     /// A path tracer with prepared luminaires.
@@ -98,6 +107,19 @@ impl<'a> PathTracer<'a> {
             common_error_lx: 0.0,
             samples: u64::from(replicates) * u64::from(settings.rays),
         }
+    }
+
+    /// About the illuminance at a point that faces any way, photometric, lx, by few paths. Their direct light is drawn from all
+    /// luminaires: a thousand of them take as long as ten.
+    pub fn rough_lx(&self, at: ProbePoint, paths: u32) -> f64 {
+        let start = self.start(at);
+        let key = place_key(at.position);
+        let found = self.replicate(start, key.with(0), paths).sum;
+        let sequence = Sequence::new(key.with(1));
+        let direct =
+            |index: u32| self.lighting.estimate(&start.surface, &mut Dice::new(sequence, index));
+        let direct: Rgb = (0..paths).map(direct).sum();
+        (direct + found.caustic + found.indirect).luminance() / f64::from(paths.max(1))
     }
 
     /// The approximate number of shadow rays of direct light in one reading of a map.

@@ -60,7 +60,7 @@ impl<'a> MapReader<'a> {
     /// A reader of a map; prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
         let lighting = Arc::new(Lighting::new(scene));
-        let (bright, _) = BrightSurfaces::of(scene, &lighting, map.provenance.seed);
+        let (bright, _) = BrightSurfaces::of(scene, &lighting, map.provenance.seed, &NEVER);
         Self::prepared((scene, map), lighting, bright)
     }
 

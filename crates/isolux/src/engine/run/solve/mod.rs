@@ -9,14 +9,15 @@ mod stages;
 use super::request::{Foreseen, Progress, SolveError, SolveRequest, Watch};
 use super::state::RunState;
 use crate::engine::light::Lighting;
-use crate::engine::pilot;
+use crate::engine::pilot::{self, PilotRequest};
+use crate::engine::ray::Deadline;
 use crate::scene::Scene;
 pub use parted::{PartMaker, make_pilot, solve_elsewhere, solve_merged, with_parts};
 use session::Run;
 pub use so_far::{Elsewhere, SoFar, Solution, Watcher};
 use stages::{check, run_on};
 use std::mem;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The time of a round of refinement, in that of the one before it, at most: each has more elements.
 const NEXT_ROUND_RATIO: f64 = 2.0;
@@ -36,27 +37,29 @@ pub fn solve(
 }
 
 /// Predicts the size and time of a run from its pilot. The pilot ends before a round that would not be over after
-/// `patience`, but not before its first survey.
+/// `patience`, but not before its first survey, unless that takes longer than `at_most`.
 pub fn foresee(
     scene: &Scene,
     request: &SolveRequest,
     patience: Duration,
+    at_most: Option<Duration>,
 ) -> Result<Foreseen, SolveError> {
     check(scene, request)?;
     let run = Run::new(scene, request);
-    let lighting = Lighting::new(scene);
-    let mut seen = Foreseen { receivers: 0, receivers_so_far: 0, finish: None };
-    let mut last_s = 0.0;
-    pilot::foresee(scene, &lighting, &run.pilot_request(), &mut |round| {
-        seen = Foreseen {
-            receivers: round.receivers_then.ceil() as u64,
-            receivers_so_far: round.receivers as u64,
-            finish: run.foreseen(round),
-        };
+    let mut pilot_request = run.pilot_request();
+    if let Some(at_most) = at_most {
+        let end = Deadline::at(Instant::now().checked_add(at_most));
+        pilot_request = PilotRequest { deadline: end.clone(), end, ..pilot_request };
+    }
+    let lighting = Lighting::prepared_until(scene, &pilot_request.end);
+    let (mut then, mut finish, mut last_s) = (None, None, 0.0);
+    let receivers_so_far = pilot::foresee(scene, &lighting, &pilot_request, &mut |round| {
+        then = Some(round.receivers_then.ceil() as u64);
+        finish = run.foreseen(round);
         let round_s = run.elapsed_s() - mem::replace(&mut last_s, run.elapsed_s());
         last_s + NEXT_ROUND_RATIO * round_s < patience.as_secs_f64()
     });
-    Ok(seen)
+    Ok(Foreseen { receivers: then, receivers_so_far: receivers_so_far as u64, finish })
 }
 
 /// Computes a map as [`solve`] does. The watcher may also ask for the map and the state so far.

@@ -67,6 +67,8 @@ pub(super) struct Run<'s, 'r> {
     pub(super) lighting: Option<Arc<Lighting<'s>>>,
     /// The results of the audits so far.
     pub(super) audited: Audited,
+    /// Whether increments were added to elements that only the time limit has kept from being made finer.
+    pub(super) stayed_coarse: bool,
     /// The audit of the present map.
     pub(super) audit: Option<Audit>,
 }
@@ -90,6 +92,7 @@ impl<'s, 'r> Run<'s, 'r> {
             saved_stage: 0,
             lighting: None,
             audited: Audited::default(),
+            stayed_coarse: false,
             audit: None,
         }
     }
@@ -119,6 +122,15 @@ impl<'s, 'r> Run<'s, 'r> {
         let limit = limit.and_then(|s| Duration::try_from_secs_f64(s).ok());
         let end = limit.and_then(|limit| self.started.checked_add(limit));
         Deadline { stop: Some(self.request.stop.clone()), ..Deadline::at(end) }
+    }
+
+    /// Prepares the luminaires: in time, or, for a run that goes on, as that run has.
+    pub(super) fn prepare_luminaires(&mut self, goes_on: bool) -> Lighting<'s> {
+        let end = if goes_on { NEVER.clone() } else { self.deadline_at(1.0) };
+        let lighting = Lighting::prepared_until(self.scene, &end);
+        // Another run would prepare them better.
+        self.cut |= end.has_passed();
+        lighting
     }
 
     /// The end of the time for an increment. The first one may go on for a while after the end: without it there is only
@@ -299,6 +311,11 @@ impl<'s, 'r> Run<'s, 'r> {
         goal.is_some_and(|goal| work.is_too_coarse(accuracy, goal))
     }
 
+    /// Whether only the time limit keeps the elements from being made finer.
+    pub(super) fn lacks_time_for_finer(&self, work: &Work, accuracy: Option<Accuracy>) -> bool {
+        self.too_coarse(work, accuracy) && !self.has_time_for_finer(work)
+    }
+
     /// The number of further stages after which elements are fine enough, if their error falls in proportion.
     pub(super) fn stages_missing(&self, errs: Option<f64>) -> u32 {
         let missed = errs.zip(self.goal()).map_or(1.0, |(errs, goal)| errs / goal);
@@ -378,7 +395,7 @@ impl<'s, 'r> Run<'s, 'r> {
         let state = self.state(whole_mesh.then_some(work));
         let time_s = self.elapsed_s();
         let cache = IrradianceCache { samples: work.made() };
-        let lacked_time = self.too_coarse(work, accuracy) && !self.has_time_for_finer(work);
+        let lacked_time = self.lacks_time_for_finer(work, accuracy);
         Solution { map: self.map(work, accuracy, reached), state, cache, time_s, lacked_time }
     }
 
@@ -391,6 +408,7 @@ impl<'s, 'r> Run<'s, 'r> {
             rays: self.rays,
             increments: sums.map_or(0, |work| work.sums.increments),
             audited: self.audited.clone(),
+            stayed_coarse: self.stayed_coarse,
             receivers: some(&|work| work.sums.sums.clone()),
             checks: some(&|work| work.checks.all()),
             given_up: some(&|work| work.given_up.sums.clone()),

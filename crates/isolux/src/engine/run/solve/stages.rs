@@ -6,7 +6,7 @@ use super::super::state::{MOST_STAGES, RunIdentity, RunState};
 use super::session::{End, FEWEST_STAGES, Pace, Run};
 use super::so_far::{Elsewhere, SoFar, Solution, Watcher};
 use crate::engine::judge::energy_bound;
-use crate::engine::light::{Emission, Lighting};
+use crate::engine::light::Emission;
 use crate::engine::plan::Plan;
 use crate::engine::ray::MAX_INCREMENTS;
 use crate::map::Method;
@@ -26,10 +26,12 @@ pub(super) fn run_on(
         RunIdentity::of(scene, request).check(&state.identity)?;
     }
     let resume = resume.filter(|state| state.increments > 0);
-    let lighting = Arc::new(Lighting::new(scene));
-    let mut run = Run { lighting: Some(Arc::clone(&lighting)), ..Run::new(scene, request) };
+    let mut run = Run::new(scene, request);
+    let lighting = Arc::new(run.prepare_luminaires(resume.is_some()));
+    run.lighting = Some(Arc::clone(&lighting));
     if let Some(state) = resume {
         run.audited = state.audited.clone();
+        run.stayed_coarse = state.stayed_coarse;
         run.stage = state.stage.clamp(1, MOST_STAGES);
         run.saved_stage = run.stage;
         run.saved_pilot = match &state.pilot {
@@ -149,6 +151,7 @@ impl<'s> Run<'s, '_> {
                 let solution = self.solution(&mut work, accuracy, reached, whole_mesh);
                 return Ok(Outcome::TooCoarse(stages, Box::new(solution)));
             }
+            self.stayed_coarse |= self.lacks_time_for_finer(&work, accuracy);
         }
     }
 
