@@ -8,7 +8,7 @@ use super::mirrors::planar::Mirrors;
 use super::mirrors::twins::Twins;
 use super::openings::Openings;
 use super::panes::Panes;
-use super::sources::{LuminaireId, Source, SourceKind};
+use super::sources::{AREA_SAMPLES, FEWEST_AREA_SAMPLES, LuminaireId, Source, SourceKind};
 use super::tree::{Images, Tree};
 use crate::scene::{Material, Scene};
 
@@ -31,12 +31,6 @@ const MOST_SHOWN_POINTS: usize = 64;
 
 /// Shadow rays to point sources in one replicate at a receiver, where the light tree draws them.
 pub(super) const RAYS_TO_MANY_POINTS: usize = 16;
-
-/// Samples of all emitting surfaces together in one replicate at a receiver. With 16, a ledge with hidden
-/// lamps makes its elements anew, and viewers show the noise of vertices (decision 44).
-pub(super) const AREA_SAMPLES: usize = 64;
-/// The fewest samples of one emitting surface.
-pub(super) const FEWEST_AREA_SAMPLES: usize = 4;
 
 /// The sources of a scene, prepared for sampling.
 pub(crate) struct Lighting<'s> {

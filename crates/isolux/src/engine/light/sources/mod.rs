@@ -17,6 +17,12 @@ use triangle_tree::Clusters;
 /// Reflectance of a chain of mirrors below which its image is left out and its light counted as error.
 const LEAST_IMAGE_REFLECTANCE: f64 = 1e-3;
 
+/// Samples of all emitting surfaces together in one replicate at a receiver. With 16, a ledge with hidden
+/// lamps makes its elements anew, and viewers show the noise of vertices (decision 44).
+pub(crate) const AREA_SAMPLES: usize = 64;
+/// The fewest samples of one emitting surface.
+pub(crate) const FEWEST_AREA_SAMPLES: usize = 4;
+
 /// Number of a luminaire of the scene: one without a surface, or an emitting surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LuminaireId {

@@ -3,9 +3,8 @@
 //! A sample of each surface takes time in proportion to their number. As lamps of the tree, with a cosine
 //! distribution about their normal, triangles are chosen by a few teeth of a comb (stratified samples of the tree).
 
-use super::super::lighting::{AREA_SAMPLES, FEWEST_AREA_SAMPLES};
 use super::super::openings::Openings;
-use super::corners_seen;
+use super::{AREA_SAMPLES, FEWEST_AREA_SAMPLES, corners_seen};
 use crate::ablation::without;
 use crate::scene::Scene;
 use isolux_geometry::{Point, Vector};
