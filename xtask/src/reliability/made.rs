@@ -123,7 +123,7 @@ pub(super) const KINDS: &[Kind] = &[
     ),
     toml(
         "boxes around each other",
-        "[[geometry]]\nmaterial = \"p\"\nbox = { min = [1, 1, 1], max = [50, 50, {z}] }\n",
+        "[[geometry]]\nmaterial = \"p\"\nbox = { min = [1, 1, 0.5], max = [50, 50, {z}] }\n",
     ),
     toml(
         "luminous boxes through each other",
@@ -179,8 +179,9 @@ pub(super) const KINDS: &[Kind] = &[
     obj("groups", "g g{i}\nusemtl a\nv {x} {y} {z}\nf 1 2 -1\n"),
     obj("luminous groups", "g g{i}\nusemtl e\nv {x} {y} {z}\nf 1 2 -1\n"),
     obj("luminous groups on each other", "g g{i}\nusemtl e\nf 1 2 5\n"),
-    obj("faces at one edge", "v {x} {y} {z}\nf 1 3 -1\n"),
-    obj("faces at one vertex", "v {x} {y} {z}\nv {x} {y} 0\nf 1 -2 -1\n"),
+    obj("faces at one edge", "usemtl a\nv {x} {y} {z}\nf 1 3 -1\n"),
+    obj("luminous faces at one edge", "v {x} {y} {z}\nf 1 3 -1\n"),
+    obj("luminous faces at one vertex", "v {x} {y} {z}\nv {x} {y} 0\nf 1 -2 -1\n"),
     xml("shapes", "<shape type=\"rectangle\"><bsdf type=\"diffuse\"/></shape>"),
     xml(
         "emitters",

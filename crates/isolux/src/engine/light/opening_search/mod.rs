@@ -187,7 +187,7 @@ impl Finder<'_> {
         }
     }
 
-    /// The emitter with the openings in front of it, if there are any.
+    /// The emitter with the openings in front of it, if there are any and they are found in time.
     fn with_openings(
         &self,
         mut before: Before,
@@ -198,7 +198,11 @@ impl Finder<'_> {
         if let Some(looked) = self.ways(first, surface, left) {
             before.openings = self.openings(&looked);
             let key = self.key.with(u64::MAX);
-            before.zones = ThroughOpenings::of(self.lighting, &before, &looked, key).zones();
+            let through = ThroughOpenings::of(self.lighting, &before, &looked, (key, self.end));
+            match through {
+                Some(through) => before.zones = through.zones(),
+                None => before.openings.clear(),
+            }
         }
         before
     }
@@ -314,7 +318,9 @@ impl Finder<'_> {
         };
         let (mut free, stopped) = (ways(|l| &l.free), ways(|l| &l.stopped));
         let stopped_at = dark().flat_map(|l| l.stopped.iter().map(|to| (&l.at, *to)));
-        let stopped_at = stopped_at.take(MOST_TRACED_PATHS).filter_map(|(at, to)| {
+        let stopped_at = stopped_at.take(MOST_TRACED_PATHS);
+        let in_time = stopped_at.take_while(|_| !self.end.has_passed());
+        let stopped_at = in_time.filter_map(|(at, to)| {
             let direction = (to - at.point).direction()?;
             self.lighting.first_opaque(at, direction).map(|(_, surface)| surface.triangle)
         });

@@ -2,7 +2,7 @@
 
 use super::super::lighting::Lighting;
 use super::super::openings::{ANYWHERE_SHARE, Before, Through, Told, View, Zones};
-use crate::engine::ray::{Dice, SurfacePoint};
+use crate::engine::ray::{Deadline, Dice, SurfacePoint};
 use crate::sampling::{Key, Sequence};
 use isolux_geometry::Point;
 use rayon::prelude::*;
@@ -59,18 +59,21 @@ pub(super) struct ThroughOpenings<'a> {
 }
 
 impl<'a> ThroughOpenings<'a> {
+    /// Sends the rays; `None` if the time is over before all of them are sent.
     pub(super) fn of(
         lighting: &Lighting,
         before: &'a Before,
         looked: &'a [Looked],
-        key: Key,
-    ) -> Self {
+        (key, end): (Key, &Deadline),
+    ) -> Option<Self> {
         let one = |(k, looked): (usize, &Looked)| {
             let mut dice = Dice::new(Sequence::new(key), k as u32);
             let all = 0..before.openings.len() as u32;
-            all.map(|opening| seen(lighting, before, opening, &looked.at, &mut dice)).collect()
+            let seen = |opening| seen(lighting, before, opening, &looked.at, &mut dice);
+            (!end.has_passed()).then(|| all.map(seen).collect())
         };
-        Self { before, looked, seen: looked.par_iter().enumerate().map(one).collect() }
+        let seen: Option<_> = looked.par_iter().enumerate().map(one).collect();
+        Some(Self { before, looked, seen: seen? })
     }
 
     /// The parts of the scene, each with the openings that its rays should go to.
