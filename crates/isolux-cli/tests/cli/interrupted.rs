@@ -1,6 +1,7 @@
 //! Ctrl-C: a valid map, and a run that can go on.
 
 use crate::ran::Home;
+use isolux_formats::checkpoint;
 use std::io::{BufRead, BufReader};
 use std::process::Command;
 
@@ -162,6 +163,20 @@ fn a_resumed_run_that_comes_to_less_keeps_the_map_and_says_so() {
     let anew = limited("1ms", &[]);
     assert!(bytes() != whole && anew.err.contains("m.glb: was more accurate before"), "{anew:?}");
     assert!(anew.json()["kept_instead_of"].is_null(), "{anew:?}");
+}
+
+#[test]
+fn a_resumed_run_says_that_it_had_no_time_for_finer_elements() {
+    let home = Home::new();
+    assert_eq!(interrupt(&home), 130);
+    let path = home.path("m.checkpoint");
+    let mut state = checkpoint::state(&checkpoint::read(&path, 1 << 30).unwrap()).unwrap();
+    assert!(!state.stayed_coarse, "it had no limit");
+    state.stayed_coarse = true;
+    checkpoint::write(&path, &checkpoint::of_state(&state)).unwrap();
+    let resumed = home.run(&[&SOLVE[..], &["--resume"]].concat());
+    let says = resumed.err.contains("went on with coarser elements");
+    assert!(resumed.code == 0 && says, "{resumed:?}");
 }
 
 #[test]

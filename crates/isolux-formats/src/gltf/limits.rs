@@ -19,6 +19,8 @@ pub(super) const PICTURE_BYTES: u64 = 1 << 30;
 pub(super) const PROFILE_BYTES: u64 = 16 << 20;
 /// Elements of an accessor: the corners of all triangles.
 pub(super) const ELEMENTS: u64 = 3 * TRIANGLES;
+/// Primitives of the placed scene; about half a kilobyte each, however small they are.
+pub(super) const SHAPES: u64 = 1 << 21;
 /// Vertices of the placed scene; about 2 GiB as positions, normals and texture coordinates.
 pub(super) const VERTICES: u64 = 1 << 25;
 /// Triangles of the placed scene.

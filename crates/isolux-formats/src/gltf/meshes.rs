@@ -28,7 +28,8 @@ pub(super) fn shapes(
     surfaces: &mut Surfaces,
     notes: &mut Notes,
 ) -> Vec<(Origin, Shape)> {
-    let mut budget = Budget { vertices: limits::VERTICES, triangles: limits::TRIANGLES };
+    let mut budget =
+        Budget { shapes: limits::SHAPES, vertices: limits::VERTICES, triangles: limits::TRIANGLES };
     let mut shapes = Vec::new();
     for Use { mesh, pose, copies } in uses(document, placed, notes) {
         for (index, record) in document.root.meshes[mesh].primitives.iter().enumerate() {
@@ -159,6 +160,7 @@ fn shape_name(document: &Document, copy: &Copy, mesh: usize, primitive: usize) -
 
 /// What the placed scene may still take.
 struct Budget {
+    shapes: u64,
     vertices: u64,
     triangles: u64,
 }
@@ -168,6 +170,10 @@ impl Budget {
         let left = |budget: u64, each: usize| {
             budget.checked_sub((each as u64).checked_mul(instances as u64)?)
         };
+        let shapes = left(self.shapes, 1).ok_or_else(|| {
+            let what = format!("more than {} surfaces of the scene in all", limits::SHAPES);
+            Flaw::new(what, "join meshes, or split the scene")
+        })?;
         let vertices = left(self.vertices, size.vertices);
         let triangles = left(self.triangles, size.triangles);
         let (Some(vertices), Some(triangles)) = (vertices, triangles) else {
@@ -180,7 +186,7 @@ impl Budget {
             );
             return Err(Flaw::new(what, "simplify or split the scene"));
         };
-        *self = Self { vertices, triangles };
+        *self = Self { shapes, vertices, triangles };
         Ok(())
     }
 }

@@ -20,6 +20,9 @@ use isolux::units::Rgb;
 /// Light from afar stands below a half-space.
 const WIDEST_DEG: f64 = 180.0;
 
+/// The most skies: every place asks all of them.
+const MOST_SKIES: usize = 16;
+
 /// Adds all luminaires of the file to the scene.
 pub(super) fn add(
     entries: &[At<LuminaireRecord>],
@@ -29,6 +32,7 @@ pub(super) fn add(
     context: &mut Context,
 ) {
     let mut files = Files::default();
+    let mut skies = 0;
     // Luminaires of geometry files are there already, and have no factor.
     let mut factors: Vec<f64> = scene.luminaires.iter().map(|_| 1.0).collect();
     scene.fittings.resize(scene.luminaires.len(), Fitting::default());
@@ -39,6 +43,16 @@ pub(super) fn add(
         let own = chromaticity::given(&record.light(), context);
         let Some(found) = kinds(entry, &name, &mut files, libraries, context) else { continue };
         let Some(own) = own else { continue };
+        skies += found
+            .kinds
+            .iter()
+            .filter(|(_, kind)| matches!(kind, LuminaireKind::Sky { .. }))
+            .count();
+        if skies > MOST_SKIES {
+            let what = format!("more than {MOST_SKIES} skies");
+            context.problem(&entry.span(), what, "write one sky that has the luminances of all");
+            break;
+        }
         let colour = own.or(found.colour).unwrap_or(Rgb::WHITE);
         scene.luminaires.extend(found.kinds.into_iter().map(|(place, kind)| {
             let name = format!("{name}{place}");
@@ -96,7 +110,7 @@ fn kinds(
         });
     }
     let light = match &record.kind {
-        Some(kind) => of_library(kind, record, libraries, context),
+        Some(kind) => of_library(kind, record, (&mut *files, libraries), context),
         None => photometry::emission(&record.light(), files, context).map(|emission| Light {
             emission,
             colour: None,
@@ -108,8 +122,8 @@ fn kinds(
     let light = light?;
     let factor = light.factor * record.dimming.map_or(1.0, |d| d.0);
     let (places, aim) = (places?, aim?);
-    let emission =
-        Emission { intensity: light.emission.intensity.scaled(factor), ..light.emission };
+    let intensity = files.scaled(&light.emission.intensity, factor);
+    let emission = Emission { intensity, ..light.emission };
     let own = record.power_w.as_ref().map(|power| power.get_ref().0);
     let emergency_share = emergency_share(record, context);
     let fitting = Fitting { power_w: own.or(emission.power_w), emergency_share };
@@ -145,7 +159,7 @@ struct Light {
 fn of_library(
     kind: &At<String>,
     record: &LuminaireRecord,
-    libraries: &mut Libraries,
+    (files, libraries): (&mut Files, &mut Libraries),
     context: &mut Context,
 ) -> Option<Light> {
     if let Some(set) = &record.lamp_set {
@@ -154,10 +168,11 @@ fn of_library(
     }
     let known = libraries.find(kind, context)?;
     Some(Light {
-        emission: known
-            .emission
-            .with_area(record.luminous_area.as_ref())
-            .with_flux(record.flux_lm.as_ref(), context)?,
+        emission: known.emission.with_area(record.luminous_area.as_ref()).with_flux(
+            record.flux_lm.as_ref(),
+            files,
+            context,
+        )?,
         colour: known.colour,
         factor: record.maintenance_factor.map(|m| m.0).or(known.maintenance_factor).unwrap_or(1.0),
     })

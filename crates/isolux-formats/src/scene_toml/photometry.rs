@@ -11,6 +11,7 @@ use isolux::photometry::IntensityDistribution;
 use isolux::scene::LuminousArea;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Light and where it comes from.
 #[derive(Clone, Debug)]
@@ -27,6 +28,8 @@ pub(super) struct Emission {
 pub(super) struct Files {
     /// By path and lamp set.
     read: HashMap<(PathBuf, u32), Option<Known>>,
+    /// Tables with their light scaled, beside those themselves: by address and factor, so that luminaires which are alike share one.
+    scaled: HashMap<(usize, u64), [IntensityDistribution; 2]>,
 }
 
 /// What one of them holds.
@@ -49,7 +52,7 @@ pub(super) fn emission(
             context.problem(&set.span(), what, "remove it: only `ldt` knows several sets of lamps");
         }
         let read = files.get(file, record, context)?.with_area(record.luminous_area);
-        return read.with_flux(record.flux_lm, context);
+        return read.with_flux(record.flux_lm, files, context);
     }
     for (key, span) in
         [("flux_lm", record.flux_lm.map(At::span)), ("lamp_set", record.lamp_set.map(At::span))]
@@ -77,10 +80,12 @@ impl Emission {
     pub(super) fn with_flux(
         self,
         flux: Option<&At<NonNegative>>,
+        files: &mut Files,
         context: &mut Context,
     ) -> Option<Self> {
         let Some(flux) = flux else { return Some(self) };
-        let intensity = with_flux(&self.intensity, flux.get_ref().0, &flux.span(), context)?;
+        let factor = factor_to(&self.intensity, flux.get_ref().0, &flux.span(), context)?;
+        let intensity = files.scaled(&self.intensity, factor);
         Some(Self { intensity, power_w: None, ..self })
     }
 
@@ -147,7 +152,9 @@ impl Amount {
     ) -> Option<IntensityDistribution> {
         match (self.candela, self.flux_lm) {
             (Some(candela), None) => Some(unit.scaled(candela.0)),
-            (None, Some(flux)) => with_flux(unit, flux.0, at, context),
+            (None, Some(flux)) => {
+                factor_to(unit, flux.0, at, context).map(|factor| unit.scaled(factor))
+            }
             (given, _) => {
                 let how_many = if given.is_some() { "both" } else { "neither" };
                 let what = format!("{how_many} of `{}` and `flux_lm`", self.name);
@@ -158,21 +165,35 @@ impl Amount {
     }
 }
 
-fn with_flux(
+/// The factor that gives a distribution a flux.
+fn factor_to(
     distribution: &IntensityDistribution,
     flux_lm: f64,
     at: &Span,
     context: &mut Context,
-) -> Option<IntensityDistribution> {
+) -> Option<f64> {
     let factor = flux_lm / distribution.luminous_flux_lm();
     if factor.is_finite() {
-        return Some(distribution.scaled(factor));
+        return Some(factor);
     }
     context.problem(at, "a distribution without light has no flux to scale", "remove `flux_lm`");
     None
 }
 
 impl Files {
+    /// A distribution times a factor.
+    pub(super) fn scaled(
+        &mut self,
+        intensity: &IntensityDistribution,
+        factor: f64,
+    ) -> IntensityDistribution {
+        let IntensityDistribution::Web(web) = intensity else { return intensity.scaled(factor) };
+        let key = (Arc::as_ptr(web) as usize, factor.to_bits());
+        let known = self.scaled.entry(key);
+        let [_, scaled] = known.or_insert_with(|| [intensity.clone(), intensity.scaled(factor)]);
+        scaled.clone()
+    }
+
     fn get(
         &mut self,
         file: &At<String>,

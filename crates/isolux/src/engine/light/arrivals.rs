@@ -18,6 +18,8 @@ const TOTAL_PARTICLES: usize = 1 << 14;
 const FEWEST_PARTICLES: usize = 16;
 /// The most particles of one luminaire.
 const MOST_PARTICLES: usize = 1 << 12;
+/// The most particles of all second looks together, if all luminaires need one.
+const MOST_SECOND_PARTICLES: usize = 1 << 22;
 
 /// Share of arriving light below which [`MOST_PARTICLES`] particles look again. Of a luminaire that sends a tenth
 /// of its light into the scene, [`FEWEST_PARTICLES`] particles miss all once in five times, and [`MOST_PARTICLES`]
@@ -70,8 +72,8 @@ fn arrival(scene: &Scene, emission: &Emission, number: usize, count: usize) -> A
         if all > 0.0 { [counts.arrived as f64 / all, lost as f64 / all] } else { [0.0, 1.0] }
     };
     let first = shares(0, count);
-    let [arrives, lost] =
-        if first[0] < LITTLE_ARRIVING_SHARE { shares(1, MOST_PARTICLES) } else { first };
+    let more = (MOST_SECOND_PARTICLES / emission.count()).clamp(count, MOST_PARTICLES);
+    let [arrives, lost] = if first[0] < LITTLE_ARRIVING_SHARE { shares(1, more) } else { first };
     let area = || &scene.area_luminaires()[number - scene.luminaires().len()];
     Arrival {
         name: match point {

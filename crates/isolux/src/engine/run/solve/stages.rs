@@ -125,10 +125,12 @@ impl<'s> Run<'s, '_> {
                 };
             }
             let whole_mesh = saved.is_some() || !self.cut;
-            if let Some([mean_lx, allowed_lx]) = work.beyond_energy(&allowed) {
+            let accuracy = work.accuracy();
+            // A few rays may bring any light: before the error is known, nothing can be said.
+            let beyond = accuracy.and_then(|_| work.beyond_energy(&allowed));
+            if let Some([mean_lx, allowed_lx]) = beyond {
                 return Err(SolveError::MoreThanEnergy { mean_lx, allowed_lx });
             }
-            let accuracy = work.accuracy();
             let end = self.audited_end(&work, accuracy);
             let progress = self.report(&work, accuracy, pace, end);
             let reached = end == Some(End::Reached);
