@@ -110,7 +110,8 @@ mod tests {
     }
 
     proptest! {
-        /// From a point computed on a triangle, no ray back meets that triangle.
+        /// From a point computed on a triangle, no ray back meets that triangle. A ray down does, farther from its edges than
+        /// the kernel rounds.
         #[test]
         fn offset_origins_lie_on_the_side_of_the_normal(
             triangle in triangle(),
@@ -120,13 +121,17 @@ mod tests {
             prop_assume!(triangle.area() > 0.01);
             let normal = triangle.normal().unwrap();
             let kernel = kernel(&triangle);
+            let [a, b, c] = triangle.corners;
+            let longest_m = (b - a).length().max((c - b).length()).max((a - c).length());
+            let from_edges_m = 2.0 * triangle.area() / longest_m * u.min(v).min(1.0 - u - v);
+            let is_inside = from_edges_m > kernel.offset_m(triangle.point(u, v));
             for normal in [normal, -normal] {
                 let origin = kernel.offset_origin(triangle.point(u, v), normal);
                 let up = normal.to_direction();
                 let direction = up.from_local(Vector::from(local).direction().unwrap().to_vector());
                 prop_assert_eq!(kernel.closest_hit(&Ray::new(origin, direction)), None);
                 let down = Ray::new(origin, -up);
-                prop_assert!(kernel.any_hit(&down), "moved to the other side");
+                prop_assert!(!is_inside || kernel.any_hit(&down), "moved to the other side");
             }
         }
 
