@@ -123,7 +123,8 @@ mod tests {
             let kernel = kernel(&triangle);
             let [a, b, c] = triangle.corners;
             let longest_m = (b - a).length().max((c - b).length()).max((a - c).length());
-            let from_edges_m = 2.0 * triangle.area() / longest_m * u.min(v).min(1.0 - u - v);
+            let least_weight = [u, v, 1.0 - u - v].into_iter().fold(f64::INFINITY, f64::min);
+            let from_edges_m = 2.0 * triangle.area() / longest_m * least_weight;
             let is_inside = from_edges_m > kernel.offset_m(triangle.point(u, v));
             for normal in [normal, -normal] {
                 let origin = kernel.offset_origin(triangle.point(u, v), normal);
